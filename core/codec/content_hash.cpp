@@ -1,43 +1,35 @@
 // Brick contents are compared by 128 bits of xxHash: two with the same hash would leave every watcher a stale brick.
-#define XXH_INLINE_ALL
-#include <xxhash.h>
+#include "codec/content_hash.hpp"
 
 #include <array>
+#include <cstdint>
 #include <type_traits>
-
-#include "codec/content_hash.hpp"
 
 namespace meniscus {
 
-struct ContentHasher::State {
-    XXH3_state_t xxh3;
-};
-
-ContentHasher::ContentHasher() : state_(std::make_unique<State>()) {
-    XXH3_128bits_reset(&state_->xxh3);
+ContentHasher::ContentHasher() {
+    XXH3_128bits_reset(&state_);
 }
-ContentHasher::~ContentHasher() = default;
 
 void ContentHasher::add_bytes(const void* bytes, std::size_t count, std::size_t size) {
     const std::uint64_t number = count;
-    XXH3_128bits_update(&state_->xxh3, &number, sizeof number);
-    XXH3_128bits_update(&state_->xxh3, bytes, size);
+    XXH3_128bits_update(&state_, &number, sizeof number);
+    XXH3_128bits_update(&state_, bytes, size);
 }
 
 void ContentHasher::add(const std::vector<CodedAttribute>& forms) {
-    XXH3_state_t& state = state_->xxh3;
     for (const CodedAttribute& form : forms) {
         const std::array<std::uint64_t, 4> numbers{form.name.size(), static_cast<std::uint64_t>(form.type),
                                                    form.components, static_cast<std::uint64_t>(form.bits)};
-        XXH3_128bits_update(&state, numbers.data(), sizeof numbers);
-        XXH3_128bits_update(&state, form.name.data(), form.name.size());
-        XXH3_128bits_update(&state, form.minimum.data(), sizeof form.minimum);
-        XXH3_128bits_update(&state, form.maximum.data(), sizeof form.maximum);
+        XXH3_128bits_update(&state_, numbers.data(), sizeof numbers);
+        XXH3_128bits_update(&state_, form.name.data(), form.name.size());
+        XXH3_128bits_update(&state_, form.minimum.data(), sizeof form.minimum);
+        XXH3_128bits_update(&state_, form.maximum.data(), sizeof form.maximum);
     }
 }
 
 ContentHash ContentHasher::hash() const {
-    const XXH128_hash_t hash = XXH3_128bits_digest(&state_->xxh3);
+    const XXH128_hash_t hash = XXH3_128bits_digest(&state_);
     return {hash.high64, hash.low64};
 }
 

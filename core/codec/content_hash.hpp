@@ -1,8 +1,10 @@
 // The identity of a brick's content.
 #pragma once
 
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 #include "meniscus/attribute_coding.hpp"
@@ -14,7 +16,6 @@ namespace meniscus {
 class ContentHasher {
 public:
     ContentHasher();
-    ~ContentHasher();
     template <class T>
     void add(const T* values, std::size_t count) {
         add_bytes(values, count, count * sizeof(T));
@@ -24,8 +25,7 @@ public:
 
 private:
     void add_bytes(const void* bytes, std::size_t count, std::size_t size);
-    struct State;
-    std::unique_ptr<State> state_;
+    XXH3_state_t state_;
 };
 
 }  // namespace meniscus

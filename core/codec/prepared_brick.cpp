@@ -16,7 +16,7 @@ BrickScratch::BrickScratch(BrickScratch&&) noexcept = default;
 
 PreparedBrick::PreparedBrick(const Mesh& mesh, std::size_t brick, const CodingOptions& options, BrickScratch& scratch)
     : options_(options) {
-    if (options.codec != Codec::lattice_packed && options.codec != Codec::lattice_entropy) {
+    if (!needs_lattice(options.codec)) {
         content_ = brick_content(mesh, brick, options, scratch);
         return;
     }

@@ -2,6 +2,9 @@
 // the bricks beyond.
 #pragma once
 
+#include <cstdint>
+
+#include "lattice/bits.hpp"
 #include "lattice/brick_grid.hpp"
 #include "lattice/coordinates.hpp"
 
@@ -24,6 +27,34 @@ constexpr int closed_place(int x, int y, int z) {
 constexpr Int3 closed_coordinate(int place) {
     return {place % closed_side, place / closed_side % closed_side, place / closed_step(2)};
 }
+
+/// A set of places.
+class ClosedPlaces {
+public:
+    /// The blocks that a cell's points lie in.
+    void add_cell(int place) {
+        for (int i = 0; i < 8; i += 2) {
+            const int first = place + closed_steps(i);
+            words_[first >> 6] |= std::uint64_t{3} << (first & 63);
+            if ((first & 63) == 63) words_[(first >> 6) + 1] |= 1;
+        }
+    }
+    std::uint32_t count() const {
+        int total = 0;
+        for (const std::uint64_t word : words_) total += popcount(word);
+        return static_cast<std::uint32_t>(total);
+    }
+    /// Calls visit(place), in ascending order.
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        for (int w = 0; w < words; ++w)
+            for (std::uint64_t left = words_[w]; left != 0; left &= left - 1) visit(64 * w + lowest_bit(left));
+    }
+
+private:
+    static constexpr int words = closed_places / 64 + 2;  // pairs may reach one word further
+    std::uint64_t words_[words] = {};
+};
 
 /// An array with an element for every place. Steps along the axes from any place stay inside: those that leave the
 /// closed brick come to its border or to a place on an upper face, where no cell of the brick is.

@@ -1,4 +1,6 @@
 // codec-bricks FRAME FILE.json: the bricks of a frame's mesh with each codec, for the viewer's benchmark of decoding.
+#include <openssl/evp.h>
+
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <fstream>
@@ -15,14 +17,11 @@ namespace meniscus {
 namespace {
 
 std::string base64(const std::vector<std::byte>& bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        unsigned three = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            three = three << 8U | (i + k < bytes.size() ? std::to_integer<unsigned>(bytes[i + k]) : 0U);
-        for (std::size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? digits[three >> (18 - 6 * k) & 63U] : '=';
-    }
+    std::string out((bytes.size() + 2) / 3 * 4 + 1, '\0');  // a zero at the end
+    const int size =
+        EVP_EncodeBlock(reinterpret_cast<unsigned char*>(out.data()),
+                        reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
+    out.resize(static_cast<std::size_t>(size));
     return out;
 }
 

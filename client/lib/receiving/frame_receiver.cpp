@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <utility>
 
 #include "conversion/attribute_conversion.hpp"
+#include "conversion/brick_conversion.hpp"
 #include "conversion/spray_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "receiving/frame_statistics.hpp"
@@ -14,12 +14,6 @@
 namespace meniscus::client {
 
 namespace {
-
-void append(std::vector<std::byte>& bytes, const std::string& more) {
-    const std::size_t size = bytes.size();
-    bytes.resize(size + more.size());
-    if (!more.empty()) std::memcpy(bytes.data() + size, more.data(), more.size());
-}
 
 /// The name of a place: of a message that has x, y and z.
 template <class Message>
@@ -126,15 +120,10 @@ void FrameReceiver::add(const v1::MeshBrick& message) {
         if (frame.bricks.size() == frame.brick_count)
             throw ServerError(name + " is one more than the " + std::to_string(frame.brick_count) +
                               " that were announced");
-        const Codec codec = codec_of(message, name);
+        (void)codec_of(message, name);  // refuses one that is not known
         if (frame.vanished.contains(place)) throw ServerError(name + " was said to have vanished");
         auto brick = std::make_shared<EncodedBrick>();
         if (!frame.bricks.emplace(place, brick).second) throw ServerError(name + " came twice");
-        brick->coordinate = {message.x(), message.y(), message.z()};
-        brick->codec = codec;
-        brick->vertices = message.vertex_count();
-        brick->triangles = message.triangle_count();
-        append(brick->cell_levels, message.cell_levels());
         frame.brick = std::move(brick);
         frame.part_count = frame.missing_parts = message.part_count();
     } else if (frame.brick->coordinate != std::array{message.x(), message.y(), message.z()} ||
@@ -143,7 +132,7 @@ void FrameReceiver::add(const v1::MeshBrick& message) {
         throw ServerError(name + ", part " + std::to_string(message.part_index()) + ", came in place of part " +
                           std::to_string(frame.part_count - frame.missing_parts) + " of the brick before");
     }
-    append(frame.brick->data, message.data());
+    conversion::append_part(message, *frame.brick);
     --frame.missing_parts;
 }
 

@@ -13,7 +13,6 @@ inline constexpr unsigned lattice_version = 1;
 
 struct BrickHeader {
     bool has_entropy = false;    ///< the profile
-    bool has_sign_rows = false;  ///< packed only: rows of signs are entropy-coded
     bool has_one_level = false;  ///< all cells that draw have the same level
     int offset_bits = 0;
     int normal_bits = 0;
@@ -21,28 +20,32 @@ struct BrickHeader {
     static constexpr std::size_t size = 2;  ///< bytes
 
     std::array<std::byte, size> bytes() const {
-        const unsigned flags = (has_entropy ? 1U : 0U) | (has_sign_rows ? 2U : 0U) | (has_one_level ? 4U : 0U);
+        const unsigned flags = (has_entropy ? entropy : 0U) | (has_one_level ? one_level : 0U);
         return {
             static_cast<std::byte>(lattice_version | flags << 4),
             static_cast<std::byte>(static_cast<unsigned>(offset_bits - 1) | static_cast<unsigned>(normal_bits) << 3)};
     }
-    /// None for another version, and for a flag that is kept for later ones: sign rows, and the last, for a brick that
-    /// refers to the one before.
+    /// None for another version, and for a flag that is kept for later ones.
     static std::optional<BrickHeader> read(std::span<const std::byte> bytes) {
         if (bytes.size() < size) return std::nullopt;
         const auto first = std::to_integer<unsigned>(bytes[0]);
         const auto second = std::to_integer<unsigned>(bytes[1]);
         BrickHeader header;
-        header.has_entropy = (first >> 4 & 1) != 0;
-        header.has_sign_rows = (first >> 4 & 2) != 0;
-        header.has_one_level = (first >> 4 & 4) != 0;
+        const unsigned flags = first >> 4;
+        header.has_entropy = (flags & entropy) != 0;
+        header.has_one_level = (flags & one_level) != 0;
         header.offset_bits = static_cast<int>(second & 7) + 1;
         header.normal_bits = static_cast<int>(second >> 3);
-        if ((first & 15) != lattice_version || (first >> 7) != 0 || header.offset_bits < 2) return std::nullopt;
+        if ((first & 15) != lattice_version || (flags & kept) != 0 || header.offset_bits < 2) return std::nullopt;
         if (header.normal_bits == 1 || header.normal_bits > 16) return std::nullopt;
-        if (header.has_sign_rows) return std::nullopt;
         return header;
     }
+
+private:
+    static constexpr unsigned entropy = 1;
+    static constexpr unsigned one_level = 4;
+    /// Rows of signs by entropy in a packed brick, and a brick that refers to the one before.
+    static constexpr unsigned kept = 2 | 8;
 };
 
 }  // namespace meniscus

@@ -13,16 +13,13 @@ BrickLattice::BrickLattice() {
 }
 
 void BrickLattice::clear() {
-    if (blocks_.empty())  // cells were added that nobody has listed the blocks of
-        for (const std::uint16_t place : cells_) {
-            level[place] = 0;
-            for (int i = 0; i < 8; ++i) around_[place + closed_steps(i)] = 0;
-        }
-    for (const std::uint16_t place : blocks_) {
+    for (const std::uint16_t place : cells_) {  // of which a refused brick may have listed no blocks
         level[place] = coarser[place] = 0;
+        for (int i = 0; i < 8; ++i) around_[place + closed_steps(i)] = 0;
+    }
+    for (const std::uint16_t place : blocks_) {
         corners[place] = middles[place] = quarters[place] = inside[place] = 0;
         edges[place] = {};
-        around_[place] = 0;
     }
     cells_.clear();
     blocks_.clear();
@@ -36,20 +33,19 @@ void BrickLattice::add_cell(int place, int its_level) {
 }
 
 void BrickLattice::list_blocks() {
-    constexpr int words = (closed_places + closed_steps(7)) / 64 + 1;
-    std::uint64_t listed[words] = {};
-    for (const std::uint16_t cell : cells_)
-        for (int i = 0; i < 8; i += 2) {
-            const int place = cell + closed_steps(i);
-            listed[place >> 6] |= std::uint64_t{3} << (place & 63);
-            if ((place & 63) == 63) listed[(place >> 6) + 1] |= 1;
-        }
-    for (int w = 0; w < words; ++w)
-        for (std::uint64_t left = listed[w]; left != 0; left &= left - 1) {
-            const int place = 64 * w + lowest_bit(left);
-            blocks_.push_back(static_cast<std::uint16_t>(place));
-            corners[place] = corner_points(around(place));
-        }
+    ClosedPlaces listed;
+    for (const std::uint16_t cell : cells_) listed.add_cell(cell);
+    listed.for_each([this](int place) {
+        blocks_.push_back(static_cast<std::uint16_t>(place));
+        corners[place] = corner_points(around(place));
+    });
+}
+
+int BrickLattice::only_level() const {
+    const int first = level[cells_[0]];
+    for (const std::uint16_t place : cells_)
+        if (level[place] != first) return 0;
+    return first;
 }
 
 bool BrickLattice::is_drawable() const {
@@ -82,19 +78,18 @@ void BrickLattice::find_coarser_faces() {
             if (coordinate[axis] == side * (brick_size - 1)) continue;
             const int other = place + (2 * side - 1) * closed_step(axis);
             // A neighbor that draws nothing is a coarser one: of the cell's own level it would see both signs, too.
-            if (level[other] < level[place] && face_is_mixed(place, axis, side))
+            if (level[other] < level[place] && face_signs(place, axis, side).mixed() != 0)
                 coarser[place] = static_cast<std::uint8_t>(coarser[place] | 1 << bit);
         }
     }
 }
 
-bool BrickLattice::face_is_mixed(int place, int axis, int side) const {
+FaceSigns BrickLattice::face_signs(int place, int axis, int side) const {
     const int upper = place + side * closed_step(axis);
     const int u = closed_step((axis + 1) % 3);
     const int v = closed_step((axis + 2) % 3);
-    return FaceSigns(inside[upper], inside[upper + u], inside[upper + v], inside[upper + u + v], axis,
-                     level_stride(level[place]))
-               .mixed() != 0;
+    return {inside[upper], inside[upper + u],         inside[upper + v], inside[upper + u + v],
+            axis,          level_stride(level[place])};
 }
 
 std::uint32_t BrickLattice::number_vertices() {
@@ -107,13 +102,11 @@ std::uint32_t BrickLattice::number_vertices() {
 }
 
 std::uint32_t BrickLattice::most_triangles() const {
-    constexpr std::uint32_t most_of_subcell = 5;
-    constexpr std::uint32_t most_of_crack = 8;
     std::uint32_t most = 0;
     for (const std::uint16_t place : cells_) {
         const auto subcells_a_side = static_cast<std::uint32_t>(base_cell_size / level_stride(level[place]));
-        most += most_of_subcell * subcells_a_side * subcells_a_side * subcells_a_side;
-        most += static_cast<std::uint32_t>(popcount(coarser[place])) * most_of_crack * (subcells_a_side / 2) *
+        most += most_subcell_triangles * subcells_a_side * subcells_a_side * subcells_a_side;
+        most += static_cast<std::uint32_t>(popcount(coarser[place])) * most_subface_triangles * (subcells_a_side / 2) *
                 (subcells_a_side / 2);
     }
     return most;

@@ -5,16 +5,22 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "lattice/blocks.hpp"
 #include "lattice/closed_brick.hpp"
 #include "lattice/face_signs.hpp"
 #include "lattice/levels_around.hpp"
+#include "lattice/tables/tables.hpp"
 #include "steps/place_vertices/place_vertices.hpp"
 #include "steps/sample_field/sample_field.hpp"
 
 namespace meniscus {
+
+/// The most triangles of a cube case, and of a crack case.
+inline constexpr int most_subcell_triangles = std::tuple_size_v<decltype(CubeCase::edges)> / 3;
+inline constexpr int most_subface_triangles = std::tuple_size_v<decltype(CrackCase::edges)> / 3;
 
 /// It is large, and is used again for one brick after another.
 class BrickLattice {
@@ -57,6 +63,10 @@ public:
     }
     /// Whether every cell sees both signs, and levels of cells that share a face differ by at most one.
     bool is_drawable() const;
+    /// The level of all cells; 0 if they differ. There is a cell.
+    int only_level() const;
+    /// The signs on a face of a cell, seen at its own stride. side: 0 below, 1 above.
+    FaceSigns face_signs(int place, int axis, int side) const;
     /// Fills `coarser` for faces within the brick.
     void find_coarser_faces();
     /// Calls visit(place, bit of `coarser`) for the faces of cells on the brick's own faces that see both signs, and
@@ -68,13 +78,10 @@ public:
             const Int3 at = closed_coordinate(place);
             const int coordinate[3] = {at.x, at.y, at.z};
             for (int bit = 0; bit < 6; ++bit)
-                if (coordinate[bit >> 1] == (bit & 1) * (brick_size - 1) && face_is_mixed(place, bit >> 1, bit & 1))
+                if (coordinate[bit >> 1] == (bit & 1) * (brick_size - 1) &&
+                    face_signs(place, bit >> 1, bit & 1).mixed() != 0)
                     visit(int{place}, bit);
         }
-    }
-    /// A block's crossed edges along an axis, of all lengths; needs the signs of all corners.
-    CrossedEdges crossed_edges(int place, const LevelsAround& around_it, int axis) const {
-        return {inside[place], inside[place + closed_step(axis)], around_it, axis};
     }
     /// Finds a block's finest edges that carry a vertex, once the signs of all corners are there. middle(points): the
     /// signs of these points, middles of crossed coarse edges that are no corners.
@@ -149,7 +156,6 @@ private:
             edges[place].axis[axis] = BlockMask{1} << finest;
         }
     }
-    bool face_is_mixed(int place, int axis, int side) const;
 
     ClosedArray<std::uint32_t> around_;  ///< byte l: the cells of level l or more, as LevelsAround has them
     std::vector<std::uint16_t> cells_;

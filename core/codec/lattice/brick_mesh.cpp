@@ -10,44 +10,28 @@
 namespace meniscus {
 namespace {
 
-constexpr std::ptrdiff_t most_cell_triangles = 5 * 64;
-constexpr std::ptrdiff_t most_crack_triangles = 8;
-static_assert(most_crack_triangles <= most_cell_triangles);
+constexpr std::ptrdiff_t most_cell_triangles =
+    most_subcell_triangles * base_cell_size * base_cell_size * base_cell_size;
+static_assert(most_subface_triangles <= most_cell_triangles);
 
 Triangle* emit_cell(const BrickLattice& lattice, const BlocksView& blocks, int place, const ClosedCell& cell,
                     Triangle* out) {
-    const auto emit_subcell = [&out](int bit, int cube_case, const auto& vertex) {
-        const CubeCase& pattern = cube_table[static_cast<std::size_t>(cube_case)];
-        for (int t = 0; t < pattern.triangles; ++t, ++out)
-            for (int corner = 0; corner < 3; ++corner)
-                (*out)[static_cast<std::size_t>(corner)] =
-                    vertex(bit, pattern.edges[static_cast<std::size_t>(3 * t + corner)]);
-    };
-    const auto emit = [&](int stride, const auto& vertex) {
-        for_each_subcell(blocks, cell, stride, [&](int bit, int cube_case) { emit_subcell(bit, cube_case, vertex); });
-    };
+    const CubeCase* const table = cube_table.data();
     switch (lattice.level[place]) {
-        case 1:
-            emit_subcell(0, lattice.level1_case(place), SubcellVertices{blocks, cell, 4});
-            break;
+        case 1:  // one subcell, whose case is found sooner than those of many
+            return emit_subcell(table[lattice.level1_case(place)], 0, SubcellVertices{blocks, cell, 4}, out);
         case 2:
-            emit(2, VertexTable<2>(blocks, cell));
-            break;
+            return emit_subcell_triangles(blocks, cell, 2, VertexTable<2>(blocks, cell), table, out);
         default:
-            emit(1, VertexTable<1>(blocks, cell));
+            return emit_subcell_triangles(blocks, cell, 1, VertexTable<1>(blocks, cell), table, out);
     }
-    return out;
 }
 
 /// visit(face, crack case) for the subfaces of a face that see both signs.
 template <class Visit>
 void for_each_subface(const BrickLattice& lattice, int place, int bit_of_face, const Visit& visit) {
     CrackFace face{bit_of_face >> 1, bit_of_face & 1, level_stride(lattice.level[place]), {}};
-    const int upper = place + face.side * closed_step(face.axis);
-    const int u = closed_step((face.axis + 1) % 3);
-    const int v = closed_step((face.axis + 2) % 3);
-    const FaceSigns signs(lattice.inside[upper], lattice.inside[upper + u], lattice.inside[upper + v],
-                          lattice.inside[upper + u + v], face.axis, face.stride);
+    const FaceSigns signs = lattice.face_signs(place, face.axis, face.side);
     for (BlockMask left = signs.mixed(); left != 0; left &= left - 1) {
         const int bit = lowest_bit(left);
         for (int axis = 0; axis < 3; ++axis)
@@ -90,7 +74,7 @@ bool make_mesh(LatticeBrick& brick, const LatticePosition& origin, std::uint32_t
         out += last - out;
     };
     Triangle room[most_cell_triangles];
-    /// Writes into `room` where there may be too little behind `out`. Returns false if it was too little.
+    // Writes into `room` where there may be too little behind `out`. Returns false if it was too little.
     const auto emit = [&](std::ptrdiff_t most, TriangleLevel level, const auto& write) {
         if (end - out >= most) {
             add(write(out), level);
@@ -108,7 +92,7 @@ bool make_mesh(LatticeBrick& brick, const LatticePosition& origin, std::uint32_t
                          [&](Triangle* to) { return emit_cell(lattice, blocks, place, cell, to); });
         for (unsigned faces = lattice.coarser[place]; faces != 0; faces &= faces - 1)
             for_each_subface(lattice, place, lowest_bit(faces), [&](const CrackFace& face, int crack_case) {
-                fits = fits && emit(most_crack_triangles, TriangleLevel::crack, [&](Triangle* to) {
+                fits = fits && emit(most_subface_triangles, TriangleLevel::crack, [&](Triangle* to) {
                            return emit_crack(blocks, cell, face, crack_table[static_cast<std::size_t>(crack_case)], to);
                        });
             });

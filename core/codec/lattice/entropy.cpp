@@ -31,23 +31,6 @@ struct SplitOffset {
     }
 };
 
-int only_level(const BrickLattice& lattice) {
-    const int first = lattice.level[lattice.cells()[0]];
-    for (const std::uint16_t place : lattice.cells())
-        if (lattice.level[place] != first) return 0;
-    return first;
-}
-
-template <class Coder>
-void code_coarser_faces(Coder& coder, BrickLattice& lattice) {
-    coder.reserve(6 * lattice.cells().size());
-    lattice.for_each_outer_face([&](int place, int bit) {
-        const int symbol = coder.code(entropy_tables.coarser, (lattice.level[place] - 2) * 2 + (bit & 1),
-                                      lattice.coarser[place] >> bit & 1);
-        lattice.coarser[place] = static_cast<std::uint8_t>((lattice.coarser[place] & ~(1 << bit)) | symbol << bit);
-    });
-}
-
 void append_number(std::size_t number, std::vector<std::byte>& out) {
     for (; number >= 128; number >>= 7) out.push_back(static_cast<std::byte>(number & 127) | std::byte{128});
     out.push_back(static_cast<std::byte>(number));
@@ -72,7 +55,7 @@ void EntropyWriter::write(LatticeBrick& brick, std::vector<std::byte>& out) {
     BrickLattice& lattice = brick.lattice;
     RansEncoder& coder = memory_->coder;
     BitWriter& raw = memory_->raw;
-    const int level = only_level(lattice);
+    const int level = lattice.only_level();
     const BrickHeader header{.has_entropy = true,
                              .has_one_level = level != 0,
                              .offset_bits = brick.offset_bits,
@@ -84,7 +67,7 @@ void EntropyWriter::write(LatticeBrick& brick, std::vector<std::byte>& out) {
     if (level != 0) coder.code(entropy_tables.only_level, 0, level - 1);
     code_cells(coder, entropy_tables, lattice, level);
     memory_->sign_coder.run(lattice);
-    code_coarser_faces(coder, lattice);
+    code_coarser_faces(coder, entropy_tables, lattice);
     const int dropped = brick.offset_bits - most_coded_bits;
     if (dropped <= 0) {
         memory_->offset_coder.run(lattice, brick.offset_bits, brick.offsets);
@@ -161,7 +144,7 @@ const char* EntropyReader::read_geometry(const BrickHeader& header, std::span<co
     memory_->sign_coder.run(lattice);
     if (!lattice.is_drawable()) return "has a cell that draws nothing, or levels that jump";
     lattice.find_coarser_faces();
-    code_coarser_faces(coder, lattice);
+    code_coarser_faces(coder, entropy_tables, lattice);
     if (announced.triangles > lattice.most_triangles()) return "announces more triangles than its cells have";
     const int dropped = std::max(0, header.offset_bits - most_coded_bits);
     memory_->offset_coder.run(lattice, header.offset_bits - dropped, brick.offsets);
@@ -175,7 +158,7 @@ const char* EntropyReader::read_geometry(const BrickHeader& header, std::span<co
     return nullptr;
 }
 
-const char* EntropyReader::read_values(const AnnouncedBrick&, LatticeBrick& brick) {
+const char* EntropyReader::read_values(LatticeBrick& brick) {
     BitReader& raw = memory_->raw;
     if (brick.normal_bits != 0) {
         const auto get = [&raw](std::uint32_t, int bits) { return static_cast<int>(raw.get_some(bits)); };

@@ -36,7 +36,7 @@ public:
     const char* read_geometry(const BrickHeader& header, std::span<const std::byte> bytes,
                               const AnnouncedBrick& announced, LatticeBrick& brick);
     /// The rest, once the brick has its mesh.
-    const char* read_values(const AnnouncedBrick& announced, LatticeBrick& brick);
+    const char* read_values(LatticeBrick& brick);
 
 private:
     struct Memory;

@@ -37,7 +37,6 @@ public:
     /// in steps of c / 2^bits, bits at most most_coded_bits; read when it encodes.
     void run(BrickLattice& lattice, int bits, std::vector<std::uint8_t>& offsets) {
         lattice_ = &lattice;
-        bits_ = bits;
         unit_ = 1 << bits;
         for (const std::uint16_t place : lattice.blocks()) middles_[place] = 0;
         for (int axis = 0; axis < 3; ++axis) {
@@ -63,7 +62,7 @@ private:
     static constexpr int lateral_v(int axis) { return axis == 2 ? 1 : 2; }
     static int along(const Int3& at, int axis) { return axis == 0 ? at.x : axis == 1 ? at.y : at.z; }
 
-    /// Calls visit(column, place along it) for the edges of a block.
+    /// Calls visit(column, place along it, bit) for the edges of a block.
     template <class Visit>
     static void for_each_edge(int place, int axis, BlockMask edges, const Visit& visit) {
         if (edges == 0) return;
@@ -74,7 +73,7 @@ private:
         for (; edges != 0; edges &= edges - 1) {
             const int bit = lowest_bit(edges);
             visit(first + point_coordinate(bit, lateral_u(axis)) + point_coordinate(bit, lateral_v(axis)) * side,
-                  low + point_coordinate(bit, axis));
+                  low + point_coordinate(bit, axis), bit);
         }
     }
 
@@ -84,15 +83,16 @@ private:
             const EdgeMasks& edges = lattice_->edges[place];
             const std::uint8_t* offset = offsets.data() + lattice_->first_vertex[place];
             for (int earlier = 0; earlier < axis; ++earlier) offset += popcount(edges.axis[earlier]);
-            for_each_edge(place, axis, edges.axis[axis],
-                          [&](int col, int k) { of_axis[static_cast<std::size_t>(col * points + k)] = *offset++; });
+            for_each_edge(place, axis, edges.axis[axis], [&](int col, int k, int) {
+                of_axis[static_cast<std::size_t>(col * points + k)] = *offset++;
+            });
         }
     }
     void give_offsets(std::vector<std::uint8_t>& offsets) const {
         std::uint8_t* offset = offsets.data();
         for (const std::uint16_t place : lattice_->blocks())
             for (int axis = 0; axis < 3; ++axis)
-                for_each_edge(place, axis, lattice_->edges[place].axis[axis], [&](int col, int k) {
+                for_each_edge(place, axis, lattice_->edges[place].axis[axis], [&](int col, int k, int) {
                     *offset++ = (*offset_)[static_cast<std::size_t>(axis)][static_cast<std::size_t>(col * points + k)];
                 });
     }
@@ -119,20 +119,11 @@ private:
         }
     }
     void list(int place, int axis, int length_index, BlockMask edges, BlockMask inside) {
-        if (edges == 0) return;
-        const Int3 at = closed_coordinate(place);
-        const int first =
-            column(along(at, lateral_u(axis)) * base_cell_size, along(at, lateral_v(axis)) * base_cell_size);
-        const int low = along(at, axis) * base_cell_size;
-        for (; edges != 0; edges &= edges - 1) {
-            const int bit = lowest_bit(edges);
-            const int col =
-                first + point_coordinate(bit, lateral_u(axis)) + point_coordinate(bit, lateral_v(axis)) * side;
-            const int k = low + point_coordinate(bit, axis);
+        for_each_edge(place, axis, edges, [&](int col, int k, int bit) {
             to_code_[col].of_length[length_index] |= std::uint64_t{1} << k;
             low_inside_[col] |= (inside >> bit & 1) << k;
             listed_[static_cast<std::size_t>(col >> 6)] |= std::uint64_t{1} << (col & 63);
-        }
+        });
     }
     /// The block and the bit of a column's lowest point.
     static std::array<int, 2> lowest_point(int axis, int col) {
@@ -311,7 +302,6 @@ private:
     const EntropyTables& tables_;
     const SymbolIndex<residuals, edge_lengths * error_classes * expected_classes> index_{tables_.offsets};
     BrickLattice* lattice_ = nullptr;
-    int bits_ = 0;
     int unit_ = 0;
     ClosedArray<BlockMask> middles_;  ///< those coded so far
     Edges to_code_[columns];

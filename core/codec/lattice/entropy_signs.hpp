@@ -77,23 +77,23 @@ public:
     void run(BrickLattice& lattice) {
         lattice_ = &lattice;
         for (const std::uint16_t place : lattice_->blocks()) {
-            still_[place] = is_still(place) ? unknown : moving;
+            undrawn_[place] = draws_nothing(place) ? unknown : drawn;
             known_[place] = 0;
         }
         for (const std::uint16_t place : lattice_->blocks()) code_block(place);
         // Places that the next brick does not use must say nothing.
         for (const std::uint16_t place : lattice_->blocks()) {
-            still_[place] = moving;
+            undrawn_[place] = drawn;
             known_[place] = 0;
         }
     }
 
 private:
     /// What is known of a sign: of a point, or of all points of a cell that draws nothing.
-    enum State : std::uint8_t { outside = 0, unknown = 1, inside = 2, moving = 3 };
+    enum State : std::uint8_t { outside = 0, unknown = 1, inside = 2, drawn = 3 };
 
     /// Whether a cell draws nothing, as all of the brick's cells that have no level.
-    bool is_still(int place) const {
+    bool draws_nothing(int place) const {
         const Int3 at = closed_coordinate(place);
         return lattice_->level[place] == 0 && at.x < brick_size && at.y < brick_size && at.z < brick_size;
     }
@@ -107,24 +107,24 @@ private:
         now_ = 0;
         known_now_ = 0;
         place_ = place;
-        unsigned still = 0;
-        for (int i = 0; i < 8; ++i) still |= static_cast<unsigned>(still_[place - closed_steps(i)] != moving) << i;
+        unsigned undrawn = 0;
+        for (int i = 0; i < 8; ++i) undrawn |= static_cast<unsigned>(undrawn_[place - closed_steps(i)] != drawn) << i;
         // A row with any points has its first.
         for (BlockMask rows = points & low_face(0); rows != 0; rows &= rows - 1) {
             const int row = lowest_bit(rows);
             code_row(point_coordinate(row, 1), point_coordinate(row, 2), static_cast<unsigned>(points >> row & 15),
-                     still);
+                     undrawn);
         }
         lattice_->inside[place] = now_ | (truth_ & ~points);  // an encoder's signs of middles stay
         known_[place] = known_now_;
     }
 
-    void code_row(int y, int z, unsigned wanted, unsigned still) {
+    void code_row(int y, int z, unsigned wanted, unsigned undrawn) {
         const int row = point_bit(0, y, z);
         // Cells that hold the whole row: no step along x; those that hold its first point alone: a step.
         const unsigned reach = (y == 0 ? 0xFFU : 0x33U) & (z == 0 ? 0xFFU : 0x0FU);
-        const unsigned whole = still & reach & 0x55U;
-        const unsigned first = still & reach & 0xAAU;
+        const unsigned whole = undrawn & reach & 0x55U;
+        const unsigned first = undrawn & reach & 0xAAU;
         const State of_row = sign_of(whole);
         unsigned value = static_cast<unsigned>(truth_ >> row) & wanted;
         if (of_row != unknown) {
@@ -148,7 +148,7 @@ private:
         known_now_ |= BlockMask{wanted} << row;
         const State seen = (value & 1) != 0 ? inside : outside;
         for (unsigned left = whole | first; left != 0; left &= left - 1) {
-            State& state = still_[place_ - closed_steps(lowest_bit(left))];
+            State& state = undrawn_[place_ - closed_steps(lowest_bit(left))];
             if (state == unknown) state = seen;
         }
     }
@@ -157,7 +157,7 @@ private:
 
     State sign_of(unsigned cells) const {
         for (; cells != 0; cells &= cells - 1) {
-            const State state = still_[place_ - closed_steps(lowest_bit(cells))];
+            const State state = undrawn_[place_ - closed_steps(lowest_bit(cells))];
             if (state == inside || state == outside) return state;
         }
         return unknown;
@@ -205,11 +205,11 @@ private:
                                                               : 1;
             context = (north.signs | below.signs << 4 | before << 8) * 3 + middle;
         } else if (has_north) {
-            context = 1536 + (north.signs | before << 4);
+            context = EntropyTables::fours_of_both + (north.signs | before << 4);
         } else if (has_below) {
-            context = 1536 + 32 + (below.signs | before << 4);
+            context = EntropyTables::fours_of_both + EntropyTables::fours_of_one + (below.signs | before << 4);
         } else {
-            context = 1536 + 64 + before;
+            context = EntropyTables::fours_of_both + 2 * EntropyTables::fours_of_one + before;
         }
         return static_cast<unsigned>(coder_.code(tables_.fours, static_cast<int>(context), static_cast<int>(value)));
     }
@@ -252,9 +252,10 @@ private:
         };
         const int neighbors = west + 3 * nearest(1) + 9 * nearest(2);
         if (y != 0 || z != 0) {
-            const unsigned shown = certain_ones_of_faces(y, z);
+            const unsigned shown = kind_of_face(y, z);
             return static_cast<unsigned>(
-                coder_.code(tables_.ones, 405 + neighbors * 3 + static_cast<int>(shown), static_cast<int>(value)));
+                coder_.code(tables_.ones, EntropyTables::ones_of_corners + neighbors * 3 + static_cast<int>(shown),
+                            static_cast<int>(value)));
         }
         int sum = base_point(-1, -1, 0) + base_point(-1, 0, -1) + base_point(0, -1, -1) + base_point(1, -1, 0) +
                   base_point(1, 0, -1) + base_point(0, 1, -1) + base_point(-1, 1, -1) + base_point(1, -1, -1) +
@@ -270,24 +271,35 @@ private:
         return static_cast<unsigned>(
             coder_.code(tables_.ones, (neighbors * 5 + sum) * 3 + alike, static_cast<int>(value)));
     }
-    /// What the row's place says of a point on a face.
-    static unsigned certain_ones_of_faces(int y, int z) { return y == 0 ? 0 : z == 0 ? 1 : 2; }
+    /// Which of the block's faces a point at x = 0 lies on beside that.
+    static unsigned kind_of_face(int y, int z) { return y == 0 ? 0 : z == 0 ? 1 : 2; }
 
-    static constexpr int certain_fours = 1536 + 66;
-    static constexpr int certain_twos = 384;
-    static constexpr int certain_ones = 405 + 81;
+    static constexpr int certain_fours = EntropyTables::fours_known;
+    static constexpr int certain_twos = EntropyTables::twos_known;
+    static constexpr int certain_ones = EntropyTables::ones_of_corners + EntropyTables::ones_of_faces;
 
     Coder& coder_;
     const EntropyTables& tables_;
     BrickLattice* lattice_ = nullptr;
     ClosedArray<BlockMask> known_;  ///< points coded so far
-    ClosedArray<State> still_ = [] {
+    ClosedArray<State> undrawn_ = [] {
         ClosedArray<State> all;
-        all.fill(moving);
+        all.fill(drawn);
         return all;
     }();
     int place_ = 0;  ///< of the block that is being coded
     BlockMask truth_ = 0, now_ = 0, known_now_ = 0;
 };
+
+/// Whether beyond the brick's own faces lie coarser cells; needs all signs.
+template <class Coder>
+void code_coarser_faces(Coder& coder, const EntropyTables& tables, BrickLattice& lattice) {
+    coder.reserve(6 * lattice.cells().size());
+    lattice.for_each_outer_face([&](int place, int bit) {
+        const int symbol =
+            coder.code(tables.coarser, (lattice.level[place] - 2) * 2 + (bit & 1), lattice.coarser[place] >> bit & 1);
+        lattice.coarser[place] = static_cast<std::uint8_t>((lattice.coarser[place] & ~(1 << bit)) | symbol << bit);
+    });
+}
 
 }  // namespace meniscus

@@ -20,13 +20,21 @@ inline constexpr int residuals = 63;  ///< symbols of a residual
 inline constexpr int largest_residual = residuals / 2;
 
 struct EntropyTables {
-    Distributions<4, 1> only_level;                   ///< of all cells, where they have the same; less 1
-    Distributions<2, 8> rows;                         ///< whether a row of cells has any that draws
-    Distributions<2, 8 * 7> cells;                    ///< whether a cell draws, where all have one level
-    Distributions<5, 64 * 8> levels;                  ///< of a cell; 0: draws nothing
-    Distributions<16, 1536 + 66 + 2> fours;           ///< signs of four points in a row
-    Distributions<4, 384 + 2> twos;                   ///< signs of two points, two apart
-    Distributions<2, 405 + 81 + 2> ones;              ///< sign of a single point
+    // Numbers of contexts: without those of rows whose sign is known, two at each table's end.
+    static constexpr int fours_of_both = 16 * 16 * 2 * 3;  ///< rows before along y and z, point before, corner between
+    static constexpr int fours_of_one = 16 * 2;            ///< one of these rows, point before
+    static constexpr int fours_known = fours_of_both + 2 * fours_of_one + 2;
+    static constexpr int twos_known = 128 * 3;                 ///< the same in one number, corner between
+    static constexpr int ones_of_corners = 3 * 3 * 3 * 5 * 3;  ///< neighbors, sum of nine more, seven alike
+    static constexpr int ones_of_faces = 3 * 3 * 3 * 3;        ///< neighbors, kind of face
+
+    Distributions<4, 1> only_level;                              ///< of all cells, where they have the same; less 1
+    Distributions<2, 8> rows;                                    ///< whether a row of cells has any that draws
+    Distributions<2, 8 * 7> cells;                               ///< whether a cell draws, where all have one level
+    Distributions<5, 64 * 8> levels;                             ///< of a cell; 0: draws nothing
+    Distributions<16, fours_known + 2> fours;                    ///< signs of four points in a row
+    Distributions<4, twos_known + 2> twos;                       ///< signs of two points, two apart
+    Distributions<2, ones_of_corners + ones_of_faces + 2> ones;  ///< sign of a single point
     Distributions<2, 4> coarser;                      ///< whether beyond the brick's face lies a coarser cell
     Distributions<2, 2 * 16 * error_classes> halves;  ///< whether a coarse edge crosses in its upper half
     Distributions<residuals, edge_lengths * error_classes * expected_classes> offsets;

@@ -30,7 +30,7 @@ public:
         brick_.clear();
         coordinate_ = mesh_brick.coordinate;
         triangles_ = mesh_brick.triangle_count();
-        attribute_forms_ = options.attributes;
+        options_ = &options;
         brick_.offset_bits = static_cast<int>(encoded_offset_bits(mesh, options));
         brick_.normal_bits = mesh.normals.empty() ? 0 : options.normal_bits;
         take_lattice(blocks);
@@ -48,16 +48,15 @@ public:
         const BrickLattice& lattice = brick_.lattice;
         hasher.add(lattice.cells().data(), lattice.cells().size());
         // A brick's blocks follow from its cells, and its edges from levels and signs.
-        std::vector<std::uint64_t> words;
-        words.reserve(2 * lattice.blocks().size());
+        hashed_.clear();
         for (const std::uint16_t place : lattice.blocks()) {
-            words.push_back(lattice.inside[place]);
-            words.push_back(std::uint64_t{lattice.level[place]} | std::uint64_t{lattice.coarser[place]} << 8);
+            hashed_.push_back(lattice.inside[place]);
+            hashed_.push_back(std::uint64_t{lattice.level[place]} | std::uint64_t{lattice.coarser[place]} << 8);
         }
-        hasher.add(words.data(), words.size());
+        hasher.add(hashed_.data(), hashed_.size());
         hasher.add(brick_.offsets.data(), brick_.offsets.size());
         hasher.add(brick_.normals.data(), brick_.normals.size());
-        hasher.add(attribute_forms_);
+        hasher.add(options_->attributes);
         for (const std::vector<std::byte>& values : brick_.attributes) hasher.add(values.data(), values.size());
         return hasher.hash();
     }
@@ -120,9 +119,9 @@ private:
         lattice.list_blocks();
         for (const LatticeBlock& block : blocks) {
             lattice.inside[block.place] = block.inside & lattice.corners[block.place];
+            outer_[block.place] = block.coarser;
         }
         // Beyond a face that shows one sign alone nothing is to be filled, whatever the level there.
-        for (const LatticeBlock& block : blocks) outer_[block.place] = block.coarser;
         lattice.for_each_outer_face([&](int place, int bit) {
             lattice.coarser[place] = static_cast<std::uint8_t>(lattice.coarser[place] | (outer_[place] & 1 << bit));
         });
@@ -142,9 +141,7 @@ private:
                 const BlockMask own = lattice.edges[block.place].axis[axis];
                 for (BlockMask left = own; left != 0; left &= left - 1) {
                     const BlockMask before = (left & (~left + 1)) - 1;
-                    const std::uint32_t vertex =
-                        first +
-                        static_cast<std::uint32_t>(own == all ? popcount(own & before) : popcount(all & before));
+                    const std::uint32_t vertex = first + static_cast<std::uint32_t>(popcount(all & before));
                     vertices_.push_back(vertex);
                     brick_.offsets.push_back(static_cast<std::uint8_t>(round_position(
                         static_cast<std::uint16_t>(static_cast<std::uint32_t>(mesh.vertices[vertex][axis]) & steps),
@@ -162,9 +159,10 @@ private:
     LatticeBrick brick_;
     std::array<std::int32_t, 3> coordinate_{};
     std::uint32_t triangles_ = 0;
-    ClosedArray<std::uint8_t> outer_;      ///< LatticeBlock::coarser of the brick's blocks
-    std::vector<std::uint32_t> vertices_;  ///< numbers in the mesh
-    std::vector<CodedAttribute> attribute_forms_;
+    ClosedArray<std::uint8_t> outer_;            ///< LatticeBlock::coarser of the brick's blocks
+    std::vector<std::uint32_t> vertices_;        ///< numbers in the mesh
+    mutable std::vector<std::uint64_t> hashed_;  ///< memory of hash()
+    const CodingOptions* options_ = nullptr;     ///< of the brick loaded last
     BitWriter bits_;
     EntropyWriter entropy_;
     std::unique_ptr<LatticeDecoder> decoder_;  ///< made for the first brick that is decoded

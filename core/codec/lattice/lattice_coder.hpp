@@ -14,7 +14,8 @@ namespace meniscus {
 class LatticeCoder {
 public:
     virtual ~LatticeCoder() = default;
-    /// Takes a brick's content out of a mesh that has its lattice. Options as for encode_brick().
+    /// Takes a brick's content out of a mesh that has its lattice. Options as for encode_brick(); they stay until
+    /// hash().
     virtual void load(const Mesh& mesh, std::size_t brick, const CodingOptions& options) = 0;
     /// Vertices of the content loaded last.
     virtual std::size_t vertices() const = 0;

@@ -17,7 +17,7 @@ const char* LatticeDecoder::decode(std::span<const std::byte> bytes, const Annou
                                             : read_packed(*header, content, announced, brick_);
     if (fault != nullptr) return fault;
     if (!make_mesh(brick_, origin, announced.triangles)) return "has another number of triangles than was announced";
-    return header->has_entropy ? entropy_.read_values(announced, brick_) : nullptr;
+    return header->has_entropy ? entropy_.read_values(brick_) : nullptr;
 }
 
 }  // namespace meniscus

@@ -7,7 +7,7 @@ namespace {
 
 constexpr int level_bits = 2;
 
-void write_cells(const BrickLattice& lattice, bool one_level, BitWriter& bits) {
+void write_cells(const BrickLattice& lattice, int only_level, BitWriter& bits) {
     std::uint64_t rows[brick_size][brick_size] = {};
     std::uint64_t slices[brick_size] = {};
     for (const std::uint16_t place : lattice.cells()) {
@@ -21,8 +21,8 @@ void write_cells(const BrickLattice& lattice, bool one_level, BitWriter& bits) {
         for (std::uint64_t left = slices[z]; left != 0; left &= left - 1)
             bits.put(rows[z][lowest_bit(left)], brick_size);
     }
-    if (one_level)
-        bits.put(lattice.level[lattice.cells()[0]] - 1U, level_bits);
+    if (only_level != 0)
+        bits.put(static_cast<unsigned>(only_level) - 1, level_bits);
     else
         for (const std::uint16_t place : lattice.cells()) bits.put(lattice.level[place] - 1U, level_bits);
 }
@@ -51,14 +51,13 @@ const char* read_cells(bool one_level, BitReader& bits, BrickLattice& lattice) {
 
 void write_packed(const LatticeBrick& brick, BitWriter& bits, std::vector<std::byte>& out) {
     const BrickLattice& lattice = brick.lattice;
-    BrickHeader header{.offset_bits = brick.offset_bits, .normal_bits = brick.normal_bits};
-    header.has_one_level = true;
-    for (const std::uint16_t place : lattice.cells())
-        header.has_one_level = header.has_one_level && lattice.level[place] == lattice.level[lattice.cells()[0]];
+    const int only_level = lattice.only_level();
+    const BrickHeader header{
+        .has_one_level = only_level != 0, .offset_bits = brick.offset_bits, .normal_bits = brick.normal_bits};
     for (const std::byte byte : header.bytes()) out.push_back(byte);
 
     bits.clear();
-    write_cells(lattice, header.has_one_level, bits);
+    write_cells(lattice, only_level, bits);
     bits.reserve(64 * lattice.blocks().size());
     for (const std::uint16_t place : lattice.blocks()) {
         const BlockMask corners = lattice.corners[place];

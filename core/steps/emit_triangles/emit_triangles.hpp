@@ -28,18 +28,24 @@ struct SubcellVertices {
     }
 };
 
-/// Writes the triangles of a cell from `out` on. vertex: from a subcell's lower corner and an edge to the vertex's
-/// number.
+/// Writes the triangles of one subcell from `out` on, and returns the end of them. bit: of its lower corner. vertex:
+/// from that and an edge to the vertex's number.
 template <class Vertices>
-MENISCUS_HD inline void emit_subcell_triangles(const BlocksView& blocks, const ClosedCell& cell, int stride,
-                                               const Vertices& vertex, const CubeCase* table, Triangle* out) {
-    for_each_subcell(blocks, cell, stride, [&](int bit, int cube_case) {
-        const CubeCase& pattern = table[cube_case];
-        for (int t = 0; t < pattern.triangles; ++t, ++out)
-            for (int corner = 0; corner < 3; ++corner)
-                (*out)[static_cast<std::size_t>(corner)] =
-                    vertex(bit, pattern.edges[static_cast<std::size_t>(3 * t + corner)]);
-    });
+MENISCUS_HD inline Triangle* emit_subcell(const CubeCase& pattern, int bit, const Vertices& vertex, Triangle* out) {
+    for (int t = 0; t < pattern.triangles; ++t, ++out)
+        for (int corner = 0; corner < 3; ++corner)
+            (*out)[static_cast<std::size_t>(corner)] =
+                vertex(bit, pattern.edges[static_cast<std::size_t>(3 * t + corner)]);
+    return out;
+}
+
+/// The same for all subcells of a cell.
+template <class Vertices>
+MENISCUS_HD inline Triangle* emit_subcell_triangles(const BlocksView& blocks, const ClosedCell& cell, int stride,
+                                                    const Vertices& vertex, const CubeCase* table, Triangle* out) {
+    for_each_subcell(blocks, cell, stride,
+                     [&](int bit, int cube_case) { out = emit_subcell(table[cube_case], bit, vertex, out); });
+    return out;
 }
 
 /// Writes the triangles of a cell from `out` on.
@@ -48,11 +54,14 @@ MENISCUS_HD inline void emit_cell_triangles(const BlocksView& blocks, std::uint3
     const ClosedCell cell(blocks, block);
     switch (blocks.level[block]) {
         case 1:
-            return emit_subcell_triangles(blocks, cell, 4, SubcellVertices{blocks, cell, 4}, table, out);
+            emit_subcell_triangles(blocks, cell, 4, SubcellVertices{blocks, cell, 4}, table, out);
+            return;
         case 2:
-            return emit_subcell_triangles(blocks, cell, 2, VertexTable<2>(blocks, cell), table, out);
+            emit_subcell_triangles(blocks, cell, 2, VertexTable<2>(blocks, cell), table, out);
+            return;
         default:
-            return emit_subcell_triangles(blocks, cell, 1, VertexTable<1>(blocks, cell), table, out);
+            emit_subcell_triangles(blocks, cell, 1, VertexTable<1>(blocks, cell), table, out);
+            return;
     }
 }
 

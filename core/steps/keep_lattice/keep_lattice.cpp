@@ -13,34 +13,6 @@
 namespace meniscus::cpu {
 namespace {
 
-/// A set of places of a closed brick.
-class Places {
-public:
-    /// The blocks of a cell.
-    void add_cell(int place) {
-        for (int i = 0; i < 8; i += 2) add_pair(place + closed_steps(i));
-    }
-    std::uint32_t count() const {
-        int total = 0;
-        for (const std::uint64_t word : words_) total += popcount(word);
-        return static_cast<std::uint32_t>(total);
-    }
-    template <class Visit>
-    void for_each(const Visit& visit) const {
-        for (std::size_t w = 0; w < words_.size(); ++w)
-            for (std::uint64_t left = words_[w]; left != 0; left &= left - 1)
-                visit(static_cast<int>(64 * w) + lowest_bit(left));
-    }
-
-private:
-    void add_pair(int place) {
-        const auto w = static_cast<std::size_t>(place >> 6);
-        words_[w] |= std::uint64_t{3} << (place & 63);
-        if ((place & 63) == 63) words_[w + 1] |= 1;
-    }
-    std::array<std::uint64_t, closed_places / 64 + 2> words_{};
-};
-
 int place_of(std::uint16_t index) {
     const Int3 at = place_in_brick(index);
     return closed_place(at.x, at.y, at.z);
@@ -66,7 +38,7 @@ public:
 
     /// cells: those of the brick that see both signs. Writes from `out` on, and returns the number of blocks.
     std::uint32_t find(std::span<const std::uint32_t> cells, LatticeBlock* out) {
-        Places places;
+        ClosedPlaces places;
         for (const std::uint32_t cell : cells) {
             const ClosedCell closed(blocks_, cell);
             const int level = blocks_.level[cell];
@@ -116,7 +88,7 @@ void keep_lattice(State& state, Mesh& mesh) {
     // Room for the blocks of all cells that see both signs: a few of them draw nothing at their own level.
     state.workers.for_ranges(mesh.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t b = begin; b < end; ++b) {
-            Places places;
+            ClosedPlaces places;
             for (const std::uint32_t cell : mixed_cells_of(b)) places.add_cell(place_of(blocks.place[cell]));
             lattice.bricks[b].count = places.count();
         }

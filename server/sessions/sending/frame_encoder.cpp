@@ -6,11 +6,10 @@
 #include <utility>
 
 #include "conversion/attribute_conversion.hpp"
-#include "conversion/codec_conversion.hpp"
+#include "conversion/brick_conversion.hpp"
 #include "meniscus/attribute_coding.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/v1/surface_service.pb.h"
-#include "sessions/limits/limits.hpp"
 #include "sessions/sending/begin_message.hpp"
 #include "sessions/sending/place_order.hpp"
 #include "sessions/sending/spray_messages.hpp"
@@ -42,24 +41,9 @@ SharedBrick brick_messages(const EncodedBrick& brick, const ContentHash& content
     result->place = brick.coordinate;
     result->content_hash = content_hash;
     result->triangles = brick.triangles;
-    const auto* data = reinterpret_cast<const char*>(brick.data.data());
-    const std::size_t part_count = std::max<std::size_t>(1, (brick.data.size() + chunk_bytes - 1) / chunk_bytes);
-    result->messages.reserve(part_count);
-    for (std::size_t part = 0; part < part_count; ++part) {
+    for (v1::MeshBrick& part : conversion::to_wire(brick)) {
         v1::StreamResponse response;
-        v1::MeshBrick& wire = *response.mutable_mesh_brick();
-        wire.set_x(brick.coordinate[0]);
-        wire.set_y(brick.coordinate[1]);
-        wire.set_z(brick.coordinate[2]);
-        wire.set_vertex_count(brick.vertices);
-        wire.set_triangle_count(brick.triangles);
-        if (part == 0)
-            wire.set_cell_levels(reinterpret_cast<const char*>(brick.cell_levels.data()), brick.cell_levels.size());
-        const std::size_t first = part * chunk_bytes;
-        wire.set_codec(conversion::to_wire(brick.codec));
-        wire.set_data(data + first, std::min(chunk_bytes, brick.data.size() - first));
-        wire.set_part_index(static_cast<std::uint32_t>(part));
-        wire.set_part_count(static_cast<std::uint32_t>(part_count));
+        *response.mutable_mesh_brick() = std::move(part);
         result->messages.push_back(serialize(response));
         result->bytes += result->messages.back()->size();
     }

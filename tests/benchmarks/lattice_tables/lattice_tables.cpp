@@ -21,7 +21,7 @@ namespace {
 
 struct TableOptions {
     std::vector<std::string> frames;
-    std::string out = "core/codec/lattice/entropy_tables.cpp";
+    std::string out = "core/codec/lattice/tables";
 };
 
 std::string sha256_of(const std::string& bytes) {
@@ -77,9 +77,7 @@ void run_lattice_tables(const TableOptions& options) {
             sha256_of({reinterpret_cast<const char*>(positions.data()), positions.size() * sizeof(float)}));
     }
     std::cout << bricks.size() << " bricks" << std::endl;
-    std::ofstream out(options.out);
-    write_tables(*train_tables(bricks), trained_on, out);
-    if (!out.flush()) throw std::runtime_error(options.out + " could not be written");
+    write_tables(*train_tables(bricks), trained_on, options.out);
 }
 
 }  // namespace
@@ -89,7 +87,7 @@ void add_lattice_tables(CLI::App& app) {
     CLI::App& command = *app.add_subcommand(
         "lattice-tables", "Make the tables of the lattice codec's entropy profile from frames and generated water");
     command.add_option("FRAME", options->frames, "Particle files, each as FILE@RADIUS")->required();
-    command.add_option("--out", options->out, "The source file")->capture_default_str();
+    command.add_option("--out", options->out, "The folder of the numbers")->capture_default_str();
     command.callback([options] { run_lattice_tables(*options); });
 }
 

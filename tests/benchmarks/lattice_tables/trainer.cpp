@@ -209,16 +209,11 @@ private:
             if (fault != nullptr) throw std::runtime_error(std::string("a training brick ") + fault);
             make_mesh(brick, {}, encoded.triangles);
             BrickLattice& lattice = brick.lattice;
-            int level = lattice.level[lattice.cells()[0]];
-            for (const std::uint16_t place : lattice.cells())
-                if (lattice.level[place] != level) level = 0;
+            const int level = lattice.only_level();
             if (level != 0) counter_.code(tables().only_level, 0, level - 1);
             code_cells(counter_, tables(), lattice, level);
             sign_coder_->run(lattice);
-            lattice.for_each_outer_face([&](int place, int bit) {
-                counter_.code(tables().coarser, (lattice.level[place] - 2) * 2 + (bit & 1),
-                              lattice.coarser[place] >> bit & 1);
-            });
+            code_coarser_faces(counter_, tables(), lattice);
             offset_coder_->run(lattice, offset_bits, brick.offsets);
             if (brick.normal_bits != 0) {
                 const auto keep = [](std::uint32_t value, int) { return static_cast<int>(value); };

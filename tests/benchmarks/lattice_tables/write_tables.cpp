@@ -1,5 +1,6 @@
-#include <ostream>
-#include <span>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
 #include <string>
 
 #include "trainer.hpp"
@@ -7,71 +8,77 @@
 namespace meniscus::benchmarks {
 namespace {
 
-/// Numbers and braces, in lines of at most 120 columns.
-class Lines {
+/// Numbers with commas, in lines of at most 120 columns.
+class NumberFile {
 public:
-    explicit Lines(std::ostream& out) : out_(out) {}
-    ~Lines() { out_ << line_ << '\n'; }
-    void put(const std::string& word) {
-        if (line_.size() + word.size() > 119) {
+    explicit NumberFile(const std::filesystem::path& path) : path_(path), out_(path) {}
+    void put(int number) {
+        const std::string word = std::to_string(number) + ',';
+        if (line_.size() + word.size() > 120) {
             out_ << line_ << '\n';
-            line_ = "     ";
+            line_.clear();
         }
         line_ += word;
     }
+    void finish() {
+        if (!(out_ << line_ << '\n').flush()) throw std::runtime_error(path_.string() + " could not be written");
+    }
 
 private:
-    std::ostream& out_;
-    std::string line_ = "    ";
+    std::filesystem::path path_;
+    std::ofstream out_;
+    std::string line_;
 };
 
-void put(Lines& lines, int number) {
-    lines.put(std::to_string(number) + ",");
+/// The frequencies of contexts from `begin` to `end`.
+template <int symbols, int contexts>
+void write(const std::filesystem::path& path, const Distributions<symbols, contexts>& table, int begin = 0,
+           int end = contexts) {
+    NumberFile file(path);
+    for (int context = begin; context < end; ++context)
+        for (int symbol = 0; symbol < symbols; ++symbol)
+            file.put(static_cast<int>(table.end(context, symbol) - table.start[context][symbol]));
+    file.finish();
 }
-template <class T, std::size_t size>
-void put(Lines& lines, const T (&values)[size]) {
-    lines.put("{");
-    for (const T& value : values) put(lines, value);
-    lines.put("},");
+
+template <class Number>
+void put(NumberFile& file, const Number& number) {
+    file.put(number);
+}
+template <class Element, std::size_t size>
+void put(NumberFile& file, const Element (&elements)[size]) {
+    for (const Element& element : elements) put(file, element);
+}
+template <class Table>
+void write_numbers(const std::filesystem::path& path, const Table& table) {
+    NumberFile file(path);
+    put(file, table);
+    file.finish();
 }
 
 }  // namespace
 
-void write_tables(const EntropyTables& tables, const std::vector<std::string>& frames, std::ostream& out) {
-    out << "// Written by meniscus-bench lattice-tables. Made of these frames, each in both modes at cell sizes 0.5 "
-           "and 1, "
-           "with\n// their SHA-256:\n";
-    for (const std::string& frame : frames) out << "// " << frame << '\n';
-    out << "#include \"codec/lattice/entropy_tables.hpp\"\n\nnamespace meniscus {\n\n// clang-format off\n"
-           "const EntropyTables entropy_tables = {\n";
-    const auto distribution = [&out](const char* name, const auto& table) {
-        out << "    ." << name << " = {\n";
-        Lines lines(out);
-        put(lines, table.start);
-        lines.put("},");
-    };
-    distribution("only_level", tables.only_level);
-    distribution("rows", tables.rows);
-    distribution("cells", tables.cells);
-    distribution("levels", tables.levels);
-    distribution("fours", tables.fours);
-    distribution("twos", tables.twos);
-    distribution("ones", tables.ones);
-    distribution("coarser", tables.coarser);
-    distribution("halves", tables.halves);
-    distribution("offsets", tables.offsets);
-    distribution("normals", tables.normals);
-    {
-        out << "    .weights =\n";
-        Lines lines(out);
-        put(lines, tables.weights);
-    }
-    {
-        out << "    .expected =\n";
-        Lines lines(out);
-        put(lines, tables.expected);
-    }
-    out << "};\n// clang-format on\n\n}  // namespace meniscus\n";
+void write_tables(const EntropyTables& tables, const std::vector<std::string>& frames,
+                  const std::filesystem::path& folder) {
+    std::ofstream list(folder / "frames.txt");
+    for (const std::string& frame : frames) list << frame << '\n';
+    if (!list.flush()) throw std::runtime_error(folder.string() + " could not be written to");
+    write(folder / "only_level.inc", tables.only_level);
+    write(folder / "rows.inc", tables.rows);
+    write(folder / "cells.inc", tables.cells);
+    write(folder / "levels.inc", tables.levels);
+    // The first half of the rows between two others, by the point before.
+    constexpr int outside = EntropyTables::fours_of_both / 2;
+    write(folder / "fours_after_outside.inc", tables.fours, 0, outside);
+    write(folder / "fours_after_inside.inc", tables.fours, outside);
+    write(folder / "twos.inc", tables.twos);
+    write(folder / "ones.inc", tables.ones);
+    write(folder / "coarser.inc", tables.coarser);
+    write(folder / "halves.inc", tables.halves);
+    write(folder / "offsets.inc", tables.offsets);
+    write(folder / "normals.inc", tables.normals);
+    write_numbers(folder / "weights.inc", tables.weights);
+    write_numbers(folder / "expected.inc", tables.expected);
 }
 
 }  // namespace meniscus::benchmarks
