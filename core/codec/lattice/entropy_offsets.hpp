@@ -2,7 +2,7 @@
 //
 // Edges are coded axis by axis, column by column, in a column by length. A column is the line of lattice edges along
 // the axis at two lateral coordinates. The surface is locally a height field over the lateral plane: an edge's
-// neighbors are the nearest crossings of its orientation in four columns coded before. One body codes and decodes.
+// neighbors are the nearest crossings of its orientation in columns coded before. One body codes and decodes.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "codec/lattice/brick_lattice.hpp"
@@ -52,7 +53,7 @@ public:
 
 private:
     static constexpr bool trains = !std::is_same_v<Training, NoTraining>;
-    static constexpr int margin = 4;  ///< columns beyond the brick's sides that neighbors of its edges lie in
+    static constexpr int margin = 8;  ///< columns beyond the brick's sides that neighbors of its edges lie in
     static constexpr int side = closed_side * base_cell_size - base_cell_size + 1 + 2 * margin;
     static constexpr int columns = side * side;
     static constexpr int points = brick_cells;  ///< edges of a column
@@ -176,46 +177,62 @@ private:
     template <int length_index>
     Prediction predict(int axis, int col, int k, bool low_is_inside) {
         constexpr int length = 1 << length_index;
-        constexpr int reach = 3 * length;
-        constexpr int neighbor[predictor_neighbors] = {-length, -length * side, -length * side - length,
-                                                       -length * side + length};
         const int middle = k + length / 2;
         const std::uint64_t flip = low_is_inside ? 0 : ~std::uint64_t{0};
         const std::uint8_t* const offsets = (*offset_)[static_cast<std::size_t>(axis)].data();
-        std::array<std::int32_t, 4> x;
+        std::array<std::int32_t, predictor_neighbors> x;
+        if constexpr (trains) x = {};
         int set = 0;
-        int error = 0;
-        for (int n = 0; n < predictor_neighbors; ++n) {
-            const int beside = col + neighbor[n];
+        // Looks for a neighbor in the column `beside`. Returns its place as an index.
+        const auto look = [&](std::size_t n, int beside, int reach) {
             const std::uint64_t alike = crossed_[beside] & (low_inside_[beside] ^ flip);
             const int up = std::countr_zero(alike >> middle);
             const int down = std::countl_zero(alike << (points - 1 - middle));
-            const int distance = up <= down ? up : down;
             const int there = (up <= down ? middle + up : middle - down) & (points - 1);
-            const int has = distance <= reach ? 1 : 0;
-            x[static_cast<std::size_t>(n)] =
-                unit_ * (there - k) + offsets[beside * points + there] - unit_ * length / 2;
+            const int has = std::min(up, down) <= reach ? 1 : 0;
+            x[n] = unit_ * (there - k) + offsets[beside * points + there] - unit_ * length / 2;
             set |= has << n;
-            error += -has & error_[static_cast<std::size_t>(beside * points + there)];
+            return std::pair{has, static_cast<std::size_t>(beside * points + there)};
+        };
+        constexpr int near[near_neighbors] = {-length, -length * side, -length * side - length,
+                                              -length * side + length};
+        int error = 0;
+        for (std::size_t n = 0; n < near_neighbors; ++n) {
+            const auto [has, at] = look(n, col + near[n], 3 * length);
+            error += -has & error_[at];
         }
         const int count = popcount(static_cast<unsigned>(set));
         static constexpr int quarters[5] = {0, 48, 24, 16, 12};
         const int mean = count != 0 ? error * quarters[count] / 12 : -1;  // in quarters of a step
         const int regime = mean < 0 ? 2 : mean <= 2 * length ? 0 : mean <= 8 * length ? 1 : mean <= 26 * length ? 2 : 3;
-        const std::int16_t(&weight)[4] = tables_.weights[length_index][regime][set];
+        const auto weighted_sum = [&](std::size_t neighbors) {
+            const std::int16_t(&weight)[predictor_neighbors] = tables_.weights[length_index][regime][set];
+            std::int32_t sum = 0;
+            for (std::size_t n = 0; n < neighbors; ++n) sum += x[n] * weight[n];
+            return sum;
+        };
         std::int32_t sum = 0;
-        for (std::size_t n = 0; n < 4; ++n) sum += x[n] * weight[n];
+        if (length > 1 && count != 0) {
+            // They tell how the surface bends, which is below the noise between finest edges.
+            constexpr int far[far_neighbors] = {-2 * length, -2 * length * side};
+            for (std::size_t n = 0; n < far_neighbors; ++n) look(near_neighbors + n, col + far[n], 4 * length);
+            sum = weighted_sum(predictor_neighbors);
+        } else {
+            sum = weighted_sum(near_neighbors);
+        }
         Prediction p;
         p.place = std::clamp(unit_ * length / 2 + ((sum + 2048) >> 12), 1, unit_ * length - 1);
-        p.error_class = mean < 0     ? 8
-                        : mean <= 1  ? 0
-                        : mean <= 3  ? 1
-                        : mean <= 6  ? 2
-                        : mean <= 11 ? 3
-                        : mean <= 20 ? 4
-                        : mean <= 36 ? 5
-                        : mean <= 64 ? 6
-                                     : 7;
+        p.error_class = mean < 0      ? 10
+                        : mean <= 1   ? 0
+                        : mean <= 3   ? 1
+                        : mean <= 6   ? 2
+                        : mean <= 11  ? 3
+                        : mean <= 20  ? 4
+                        : mean <= 36  ? 5
+                        : mean <= 64  ? 6
+                        : mean <= 112 ? 7
+                        : mean <= 200 ? 8
+                                      : 9;
         p.expected_class = tables_.expected[length_index][regime][set];
         if constexpr (trains) seen_ = {set, regime, x};
         return p;
@@ -313,7 +330,7 @@ private:
     std::array<int, 2> lowest_point_{};  ///< of the column that is being coded
     struct Seen {
         int set, regime;
-        std::array<std::int32_t, 4> x;
+        std::array<std::int32_t, predictor_neighbors> x;
     } seen_{};  ///< what the last prediction was made of, for a training
 };
 

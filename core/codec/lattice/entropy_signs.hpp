@@ -53,9 +53,12 @@ int code_cells(Coder& coder, const EntropyTables& tables, BrickLattice& lattice,
                     for (const int diagonal : diagonals) levels += diagonal;
                     static constexpr std::array<std::int8_t, 19> classes{0, 1, 1, 2, 2, 3, 3, 4, 4, 5,
                                                                          5, 5, 6, 6, 6, 7, 7, 7, 7};
-                    symbol = coder.code(
-                        tables.levels, (west | north << 2 | below << 4) * 8 + classes[static_cast<std::size_t>(levels)],
-                        symbol);
+                    const int corners = beside(-1, -1, -1) + beside(1, -1, -1) + beside(-1, 1, -1) + beside(1, 1, -1);
+                    const int beyond = corners == 0 ? 0 : corners <= 2 ? 1 : corners <= 5 ? 2 : 3;
+                    const int neighbors = west | north << 2 | below << 4;
+                    symbol =
+                        coder.code(tables.levels,
+                                   (neighbors * 8 + classes[static_cast<std::size_t>(levels)]) * 4 + beyond, symbol);
                 }
                 if constexpr (!Coder::encodes)
                     if (symbol != 0) lattice.add_cell(at, std::min(symbol, 3));

@@ -7,12 +7,14 @@
 
 namespace meniscus {
 
-/// The neighbors by which an offset is predicted: edges beside it, coded before it.
-inline constexpr int predictor_neighbors = 4;
+/// The neighbors by which an offset is predicted: edges beside it, coded before it. Coarse edges also have far ones.
+inline constexpr int near_neighbors = 4;
+inline constexpr int far_neighbors = 2;
+inline constexpr int predictor_neighbors = near_neighbors + far_neighbors;
 inline constexpr int neighbor_sets = 1 << predictor_neighbors;
 inline constexpr int edge_lengths = 3;  ///< 1, 2, 4 finest cells
 inline constexpr int regimes = 4;       ///< of the error nearby
-inline constexpr int error_classes = 9;
+inline constexpr int error_classes = 11;
 inline constexpr int expected_classes = 6;
 inline constexpr int flatness_classes = 6;
 inline constexpr int normal_error_classes = 7;
@@ -31,7 +33,7 @@ struct EntropyTables {
     Distributions<4, 1> only_level;                              ///< of all cells, where they have the same; less 1
     Distributions<2, 8> rows;                                    ///< whether a row of cells has any that draws
     Distributions<2, 8 * 7> cells;                               ///< whether a cell draws, where all have one level
-    Distributions<5, 64 * 8> levels;                             ///< of a cell; 0: draws nothing
+    Distributions<5, 64 * 8 * 4> levels;                         ///< of a cell; 0: draws nothing
     Distributions<16, fours_known + 2> fours;                    ///< signs of four points in a row
     Distributions<4, twos_known + 2> twos;                       ///< signs of two points, two apart
     Distributions<2, ones_of_corners + ones_of_faces + 2> ones;  ///< sign of a single point

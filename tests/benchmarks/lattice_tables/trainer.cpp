@@ -55,7 +55,7 @@ struct Sums {
     std::array<std::array<double, predictor_neighbors>, predictor_neighbors> xx{};
     double squared_errors = 0.0;  ///< of the present weights, per finest cell
 
-    void add(int set, const std::array<std::int32_t, 4>& x, std::int32_t y, int length_in_steps,
+    void add(int set, const std::array<std::int32_t, predictor_neighbors>& x, std::int32_t y, int length_in_steps,
              const std::int16_t (&weight)[predictor_neighbors]) {
         const double unit = length_in_steps;
         const auto base = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(set)));
@@ -106,8 +106,8 @@ struct Training {
     std::shared_ptr<AllSums> sums = std::make_shared<AllSums>();
     const EntropyTables* tables = nullptr;
 
-    void operator()(int length_index, int regime, int set, const std::array<std::int32_t, 4>& x, std::int32_t y,
-                    int length_in_steps) const {
+    void operator()(int length_index, int regime, int set, const std::array<std::int32_t, predictor_neighbors>& x,
+                    std::int32_t y, int length_in_steps) const {
         if (set == 0) return;
         (*sums)[static_cast<std::size_t>(length_index)][static_cast<std::size_t>(regime)][static_cast<std::size_t>(set)]
             .add(set, x, y, length_in_steps, tables->weights[length_index][regime][set]);
