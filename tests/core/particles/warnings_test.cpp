@@ -202,7 +202,7 @@ TEST(RadiusWarning, IsGivenWithTheRadiusAndTheOneThatFits) {
 
 TEST(EmptySurfaceWarning, HasTheGreatestValueThatWasSampled) {
     const test::Particles particles = lattice(6, 6, 6);
-    for (const Field field : {Field::color, Field::density})  // the smooth field is lifted above any threshold
+    for (const Field field : {Field::color, Field::density})  // that of the smooth field is below 1
         for (const Mode mode : {Mode::adaptive, Mode::uniform}) {
             Settings settings = test::default_settings();
             settings.field = field;
@@ -238,6 +238,21 @@ TEST(EmptySurfaceWarning, SaysThatAllIsSprayOrThatTheDomainHoldsNothing) {
     ASSERT_EQ(warnings.size(), 1U);
     EXPECT_NE(warnings[0].text.find("none lies in the domain"), std::string::npos) << warnings[0].text;
     EXPECT_LT(warnings[0].value, settings.iso);  // samples beyond the border are not counted
+}
+
+TEST(EmptySurfaceWarning, IsGivenInTheSmoothFieldWhereDropsAreSmallerThanCells) {
+    test::Particles lone;
+    lone.add(0.011F, 0.004F, 0.006F);
+    for (const Mode mode : choices<Mode>) {
+        Settings settings = test::default_settings();
+        settings.mode = mode;
+        settings.iso = 0.999;
+        const std::vector<Warning> warnings = warnings_of(lone.frame(), settings);
+        ASSERT_EQ(warnings.size(), 1U);
+        EXPECT_EQ(warnings[0].code, WarningCode::empty_surface);
+        EXPECT_LT(warnings[0].value, 0.999);
+        EXPECT_EQ(warnings[0].limit, 0.999);
+    }
 }
 
 TEST(EmptySurfaceWarning, IsNotGivenWithoutParticles) {
