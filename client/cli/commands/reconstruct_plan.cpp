@@ -19,6 +19,7 @@ std::vector<FrameFiles> frames_of(const ReconstructFiles& files) {
     FilePattern out(files.out);
     FilePattern spray_out(files.spray_out);
     const bool sequence = in.has_number();
+    in.require_no_other_notation();
     if (!sequence && files.selection.is_given())
         throw InvalidInput("--start, --end, --step and --skip-missing need {} in IN, which is '" + files.in + "'");
     if (!files.out.empty() && out.has_number() != sequence)

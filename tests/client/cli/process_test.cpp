@@ -61,6 +61,25 @@ TEST_F(Cli, RefusesBadArguments) {
     expect_refused({"reconstruct", in_, "--particle-radius", "0.5"}, {"-o", "--stats"});
 }
 
+TEST_F(Cli, TakesTheValueOfAShortFlagInEachNotation) {
+    for (const std::vector<std::string>& radius :
+         std::vector<std::vector<std::string>>{{"-r", "0.5"}, {"-r0.5"}, {"-r=0.5"}, {"--particle-radius=0.5"}}) {
+        std::vector<std::string> command{"reconstruct", in_, "-o", out_, "-q"};
+        command.insert(command.end(), radius.begin(), radius.end());
+        const ProcessResult result = run_meniscus(command);
+        EXPECT_EQ(result.exit_code, 0) << radius.front() << ": " << result.err;
+    }
+    expect_refused({"reconstruct", in_, "-o", out_, "-r=half"}, {"--particle-radius", "half"});
+}
+
+TEST_F(Cli, AnswersASequenceInAnotherNotationWithItsOwn) {
+    for (const char* name : {"f_*.vtk", "f_%03d.vtk"}) {
+        expect_refused({"reconstruct", path(name), "-o", out_, "-r", "0.5"},
+                       {"no such file", "has {} for the numbers"});
+        expect_refused({"convert", path(name), "-o", path("f_{}.ply")}, {"no such file", "has {} for the numbers"});
+    }
+}
+
 TEST_F(Cli, RefusesOptionsThatAreEmptyInPlaceOfTakingThemAsNotGiven) {
     expect_refused(reconstruct({"--server", ""}), {"--server", "empty", "HOST:PORT"});
     expect_refused({"info", "--server", ""}, {"--server", "empty", "HOST:PORT"});
