@@ -84,6 +84,15 @@ TEST_F(Operators, ListSessionsForPeopleAndForPrograms) {
     EXPECT_GT(json[0]["last_frame"]["latency_seconds"], 0);
 }
 
+TEST_F(Operators, SayThatThereAreNoSessions) {
+    client.delete_session(id);
+    const ProcessResult result = run({"sessions"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err, "meniscus: " + server.address() + " has no sessions\n");
+    EXPECT_EQ(run({"sessions", "--json"}).out, "[]\n");
+}
+
 TEST_F(Operators, MayStopWatchingASessionThatRests) {
     const ProcessResult result = run({"watch", id, "-o", (directory / "meshes").string(), "--timeout", "0.2"});
     EXPECT_EQ(result.exit_code, 1) << result.err;
