@@ -30,6 +30,8 @@ std::string near_name(std::string_view name, const std::vector<std::string>& nam
     std::size_t least = 2 + name.size() / 4;
     std::string nearest;
     for (const std::string& candidate : names) {
+        // As many characters more or less take as many changes.
+        if (name.size() >= candidate.size() + least) continue;
         const bool begun = name.size() >= shortest_beginning && candidate.starts_with(name);
         const std::size_t count = begun ? 1 : changes(name, candidate);
         if (count < least) {
