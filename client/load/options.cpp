@@ -2,8 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/options/near_names.hpp"
 #include "cli/options/policy_options.hpp"
+#include "cli/options/refusal.hpp"
 #include "meniscus/reconstructor.hpp"
 
 namespace meniscus::load {

@@ -64,6 +64,8 @@ public:
     const std::string* find(std::string_view name);
 
     void finish() const;
+    /// What was asked for, in that order.
+    const std::vector<std::string>& known() const noexcept { return known_; }
 
     /// An option's name as messages have it: option 'NAME'.
     std::string quoted(std::string_view name) const;

@@ -30,6 +30,12 @@ double lone_particle_reach(double share) {
     return low;
 }
 
+/// The level that shows a lone particle's blob. Lengths in radii; reach: the support, less for a smaller blob.
+/// Measured: core/README.md#drops-025-and-017.
+int blob_level(double cell_size, double reach) {
+    return cell_size > 0.17 * reach ? 3 : 2;
+}
+
 /// Measured: core/README.md#the-smooth-field.
 void use_smooth_field(LatticeSettings& settings, const Settings& s) {
     settings.has_own_supports = true;
@@ -38,14 +44,21 @@ void use_smooth_field(LatticeSettings& settings, const Settings& s) {
     SmoothField& f = settings.smooth = SmoothField(smoothness(s), s.cell_size);
     for (unsigned k = 0; k < particle_level_count; ++k)
         settings.company_support[k] = f.company_support * f.units_per_radius[k];
-    // The constants are those for the threshold 0.6: what lies below it must be lifted above another, too.
-    const auto scaled = [&](float constant) { return static_cast<float>(static_cast<double>(constant) / 0.6 * s.iso); };
-    settings.deep_inside = scaled(f.deep_inside);
-    f.least_value = scaled(f.least_value);
-    f.group_lift = scaled(f.group_lift);
+    // The constants are those for the threshold 0.6. The lift follows a lower one. With a higher one it goes to 1, the
+    // field at a particle alone: every particle stays above a threshold below 1, by less the higher it is.
+    constexpr double usual = 0.6;
+    const auto scaled = [](float constant, double iso) { return static_cast<double>(constant) / usual * iso; };
+    const double above = std::max(s.iso - usual, 0.0) / (1.0 - usual);
+    const double lower = std::min(s.iso, usual);
+    settings.deep_inside = static_cast<float>(scaled(f.deep_inside, s.iso));
+    f.least_value =
+        static_cast<float>(scaled(f.least_value, lower) + (1.0 - static_cast<double>(f.least_value)) * above);
+    f.group_lift = static_cast<float>(scaled(f.group_lift, lower));
     // A particle that can be a drop reaches as far as its share alone is above the threshold, and farther with others.
-    const auto reach2 = [](float iso) { return iso < 1.0F ? 1.0F - cube_root(iso) : 0.0F; };
-    settings.blob_closest = 1.0F - std::min(0.58F * 0.58F * reach2(settings.iso) / reach2(0.6F), 1.0F);
+    const auto reach2 = [](float iso) { return std::max(1.0F - cube_root(iso), 0.0F); };
+    const float drop2 = reach2(settings.iso) / reach2(0.6F);
+    settings.blob_closest = 1.0F - std::min(0.58F * 0.58F * drop2, 1.0F);
+    settings.blob_level = blob_level(s.cell_size, f.lone_support * std::sqrt(std::min(drop2, 1.0F)));
 }
 
 // One for each alternative: another does not compile without.
@@ -78,6 +91,7 @@ LatticeSettings::LatticeSettings(const Settings& s) {
     const double l = smoothing_length(s);
     weight = static_cast<float>(16.0 / (std::numbers::pi * l * l * l));
     iso = static_cast<float>(s.iso);
+    blob_level = meniscus::blob_level(s.cell_size, 2.0 * smoothing_length(s));
     if (s.field == Field::smooth) use_smooth_field(*this, s);
     // Measured: core/README.md#the-band-085, core/README.md#drops-025-and-017.
     if (s.field == Field::color) deep_inside = static_cast<float>(s.iso * (0.85 / 0.6));
@@ -86,8 +100,6 @@ LatticeSettings::LatticeSettings(const Settings& s) {
     if (s.field == Field::color && s.iso < 1.0)
         blob_closest =
             static_cast<float>(1.0 - std::min(0.25 * lone_particle_reach(s.iso) / lone_particle_reach(0.6), 1.0));
-    const double lone_support = s.field == Field::smooth ? smooth.lone_support : 2.0 * smoothing_length(s);
-    if (s.cell_size > 0.17 * lone_support) blob_level = 3;
     tolerance = static_cast<float>(meniscus::tolerance(s));
     is_adaptive = s.mode == Mode::adaptive;
     if (is_adaptive) std::visit([this](const auto& criterion) { use(*this, criterion); }, s.criterion);

@@ -16,7 +16,7 @@ struct SmoothField {
     float least_company = 0.25F;   ///< company beside itself; below it a particle is alone
     float full_company = 1.75F;    ///< company above which a particle is among others
     float shared_drop = 0.3F;      ///< loss of volume by company, for a particle that counts as alone
-    float least_value = 0.0F;      ///< least value of the field at a particle's place, at the threshold 0.6
+    float least_value = 0.0F;      ///< least value of the field at a particle's place, at the threshold 0.6; 1 at 1
     // A group of few particles nearer to each other than at rest is lifted more, or it would shrink to a few of them.
     float group_size = 2.5F;     ///< number of particles within the support above which the kernel is lifted
     float group_spread = 0.66F;  ///< company, for each of these, below which the kernel is lifted

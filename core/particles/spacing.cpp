@@ -25,8 +25,14 @@ constexpr double few = 0.15;
 constexpr double close_by =
     0.4;  ///< of the sixth's distance: of particles at random 0.28 have their nearest within it,
 constexpr double close_at_random = 0.28;
-constexpr double certainty = 3.0;    ///< of water at most 0.13; fewer by this number of standard deviations are water
-constexpr double first_reach = 2.4;  ///< a little beyond the nearest of particles at rest in any packing
+constexpr double certainty = 3.0;  ///< of water at most 0.13; fewer by this number of standard deviations are water
+constexpr double nearest_at_rest = 2.4;  ///< a little beyond the nearest of particles at rest in any packing
+// Scattered particles are no water at this radius, whatever they are at another.
+constexpr double touching = 2.0;
+constexpr double joined = 2.7;  ///< within it the smooth field joins two particles
+constexpr double around = 3.0;  ///< a particle among others has its sixth within it, in a film and at a corner, too,
+constexpr double hardly_any = 0.05;  ///< fewer than these have, where particles are scattered,
+constexpr double lone = 0.15;        ///< and more than these are joined to none: of a thread of particles none is
 constexpr double last_reach = 1.2;   ///< reach of the last pass, times the sixth's distance in the median
 constexpr double reach_growth = 2.0;
 constexpr int most_passes = 20;  ///< up to two million radii: units that are confused, such as mm and m
@@ -80,6 +86,14 @@ public:
         for (std::size_t p = 0; p < count_; ++p)
             if (probes_[p].found > 0 && probes_[p].square[0] <= distance * distance) ++with;
         return count_ == 0 ? 0.0 : static_cast<double>(with) / static_cast<double>(count_);
+    }
+
+    /// The share of those that have six others within a distance.
+    double share_among_others(double distance) const {
+        std::size_t among = 0;
+        for (std::size_t p = 0; p < count_; ++p)
+            if (probes_[p].found == neighbors && probes_[p].square[neighbors - 1] <= distance * distance) ++among;
+        return count_ == 0 ? 0.0 : static_cast<double>(among) / static_cast<double>(count_);
     }
 
     /// Whether the particles keep a distance from each other: fewer of them than by chance have their nearest much
@@ -219,33 +233,40 @@ std::pair<std::uint8_t, std::size_t> most_frequent_level(const ParticleFrame& fr
 
 }  // namespace
 
-std::optional<double> radius_that_fits(const ParticleFrame& frame, double radius) {
+std::optional<FittingRadius> radius_that_fits(const ParticleFrame& frame, double radius) {
     const auto [level, particles] = most_frequent_level(frame);
     if (particles < fewest_particles) return std::nullopt;
     const double unit = std::ldexp(radius, level);
-    const auto radius_of = [&](double sixth) { return two_digits(std::ldexp(sixth / usual_sixth, -int{level})); };
+    const auto fitting = [&](double sixth, double alone) {
+        return FittingRadius{two_digits(std::ldexp(sixth / usual_sixth, -int{level})), alone};
+    };
 
     Probes probes(frame, level);
     const std::size_t few_probes = std::clamp(frame.count() / particles_per_probe, fewest_probes, first_probes);
-    probes.look(few_probes, first_reach * unit);
-    const double near = probes.median_sixth();
-    if (near < near_sixth * unit) return near == 0.0 ? std::nullopt : std::optional(radius_of(near));
-    if (probes.share_with_company(first_reach * unit) >= 0.5) return std::nullopt;
+    double reach = around * unit;
+    probes.look(few_probes, reach);
+    double sixth = probes.median_sixth();
+    if (sixth < near_sixth * unit) return sixth == 0.0 ? std::nullopt : std::optional(fitting(sixth, 0.0));
+    if (probes.share_among_others(reach) >= 0.5) return std::nullopt;
 
-    // Most are alone: spray, or water of a larger radius, whose particles keep apart.
-    double reach = first_reach * unit;
-    double sixth = near;
+    // Most have few others near: spray, or particles of a larger radius.
+    const bool most_are_alone = probes.share_with_company(nearest_at_rest * unit) < 0.5;
     for (int pass = 0; pass < most_passes && !std::isfinite(sixth); ++pass) {
         reach *= reach_growth;
         probes.look(few_probes, reach);
         sixth = probes.median_sixth();
     }
-    if (!std::isfinite(sixth) || sixth < far_sixth * unit) return std::nullopt;
-    probes.look(std::min(frame.count(), most_probes), last_reach * sixth);
+    if (!std::isfinite(sixth)) return std::nullopt;
+    const bool is_far = sixth >= far_sixth * unit;
+    probes.look(std::min(frame.count(), most_probes), std::max(last_reach * sixth, around * unit));
     sixth = probes.median_sixth();
-    const bool is_water =
-        std::isfinite(sixth) && probes.share_with_company(company * unit) < few && probes.keep_apart();
-    return is_water ? std::optional(radius_of(sixth)) : std::nullopt;
+    if (!std::isfinite(sixth)) return std::nullopt;
+    // Water keeps apart.
+    if (most_are_alone && is_far && probes.share_with_company(company * unit) < few && probes.keep_apart())
+        return fitting(sixth, 0.0);
+    if (probes.share_among_others(around * unit) < hardly_any && probes.share_with_company(joined * unit) < 1.0 - lone)
+        return fitting(sixth, 1.0 - probes.share_with_company(touching * unit));
+    return std::nullopt;
 }
 
 }  // namespace meniscus

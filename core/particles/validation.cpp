@@ -102,6 +102,12 @@ void require_box(const char* name, const Box& box, bool may_be_flat) {
 /// What belongs to one field is refused with another, where it would change nothing.
 void require_field_settings(const Settings& s) {
     if (s.field == Field::smooth) {
+        // In float32, as the field is.
+        if (static_cast<float>(s.iso) >= 1.0F)
+            throw InvalidInput(
+                "iso value is " + text(s.iso) +
+                ", must be less than 1 with the field smooth, which is about 1 inside a fluid and 1 at a "
+                "particle alone: 0.4 to 0.7 are usual");
         if (s.smoothing_length)
             throw InvalidInput("the smoothing length is " + text(*s.smoothing_length) +
                                ", but the field is smooth, which has none: leave it out and use --smoothness, or take "

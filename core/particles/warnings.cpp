@@ -31,13 +31,23 @@ std::string particles_text(std::size_t count) {
     return count == 1 ? "the one particle" : "all " + std::to_string(count) + " particles";
 }
 
-std::optional<Warning> wrong_radius(const ParticleFrame& frame, double radius) {
-    const std::optional<double> fitting = radius_that_fits(frame, radius);
+std::optional<Warning> wrong_radius(const ParticleFrame& frame, const Settings& settings) {
+    const double radius = settings.particle_radius;
+    const std::optional<FittingRadius> fitting = radius_that_fits(frame, radius);
     if (!fitting) return std::nullopt;
-    const bool small = radius < *fitting;
-    return Warning{small ? WarningCode::radius_too_small : WarningCode::radius_too_large, radius, *fitting,
-                   "the particle radius " + shown(radius) + " is too " + (small ? "small" : "large") +
-                       " for the spacing of the particles: about " + shown(*fitting) + " fits"};
+    const bool small = radius < fitting->radius;
+    Warning warning{small ? WarningCode::radius_too_small : WarningCode::radius_too_large, radius, fitting->radius, {}};
+    if (fitting->alone == 0.0) {
+        warning.text = "the particle radius " + shown(radius) + " is too " + (small ? "small" : "large") +
+                       " for the spacing of the particles: about " + shown(fitting->radius) + " fits";
+        return warning;
+    }
+    // Their owner knows of them.
+    if (settings.spray != Spray::keep) return std::nullopt;
+    warning.text = "at the particle radius " + shown(radius) + " about " + shown(std::floor(100.0 * fitting->alone)) +
+                   " % of the particles touch no other, and hardly any lies among others: about " +
+                   shown(fitting->radius) + " would join them";
+    return warning;
 }
 
 /// Where it does not suffice to blame the threshold.
@@ -150,7 +160,7 @@ void find_warnings(const PlacedFrame& particles, const ParticlesByLevel& by_leve
     const auto add = [&](std::optional<Warning> warning) {
         if (warning) statistics.warnings.push_back(std::move(*warning));
     };
-    if (!particles.on_device) add(wrong_radius(particles.frame, settings.particle_radius));
+    if (!particles.on_device) add(wrong_radius(particles.frame, settings));
     if (statistics.triangles == 0)
         add(empty_surface(particles, settings, static_cast<double>(greatest_sample()), statistics.spray_particles));
     add(too_large_cells(by_level, settings));
@@ -159,8 +169,8 @@ void find_warnings(const PlacedFrame& particles, const ParticlesByLevel& by_leve
 
 std::string fitting_radius_hint(const PlacedFrame& particles, const Settings& settings) {
     if (particles.on_device) return {};
-    const std::optional<double> fitting = radius_that_fits(particles.frame, settings.particle_radius);
-    return fitting ? " A particle radius of about " + shown(*fitting) + " fits their spacing" : "";
+    const std::optional<FittingRadius> fitting = radius_that_fits(particles.frame, settings.particle_radius);
+    return fitting ? " A particle radius of about " + shown(fitting->radius) + " fits their spacing" : "";
 }
 
 }  // namespace meniscus

@@ -11,6 +11,11 @@
 namespace meniscus::server {
 
 HostPort parse_host_port(std::string_view flag, const std::string& address) {
+    if (!address.empty() && address.find_first_not_of("0123456789") == std::string::npos)
+        throw InvalidInput(
+            fmt::format("{0} {1} has no host: give 127.0.0.1:{1} for this machine alone, or 0.0.0.0:{1} "
+                        "for others, too",
+                        flag, address));
     const std::size_t colon = address.rfind(':');
     const std::string host = colon == std::string::npos ? "" : address.substr(0, colon);
     const bool in_brackets = host.size() > 2 && host.starts_with('[') && host.ends_with(']');

@@ -94,13 +94,30 @@ void keep_alive(grpc::ServerBuilder& builder) {
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 20'000);
 }
 
-/// Throws InvalidInput if others could connect without TLS, or call without a token, where that is not meant.
-void require_closed_to_others(const ServerOptions& options) {
+// Each throws InvalidInput for an address that is none, and if others could connect there without TLS, or call without
+// a token, where that is not meant.
+
+void require_listen(const ServerOptions& options) {
+    require_listen_address(options.listen);
     if (!options.insecure && !options.tls.any()) require_loopback("--listen", options.listen);
-    if (!options.insecure && !options.tls.any() && !options.http.empty()) require_loopback("--http", options.http);
+}
+
+void require_http(const ServerOptions& options) {
+    if (options.http.empty()) return;
+    parse_host_port("--http", options.http);
+    if (!options.insecure && !options.tls.any()) require_loopback("--http", options.http);
+}
+
+void require_tokens_for_all(const ServerOptions& options) {
     if (!options.tokens.empty() && (options.reflection || options.channelz))
         throw InvalidInput(fmt::format("{} cannot be had with --tokens: gRPC answers it without asking for one",
                                        options.reflection ? "--reflection" : "--channelz"));
+}
+
+void require_closed_to_others(const ServerOptions& options) {
+    require_listen(options);
+    require_http(options);
+    require_tokens_for_all(options);
 }
 
 /// Bounds the memory and the time that a connection can take in gRPC itself. (keep_alive() is for both ends.)
@@ -144,13 +161,13 @@ Limits in_force(Limits limits, const ConnectionShares& shares) {
 
 std::vector<std::string> problems_of(const ServerOptions& options) {
     const std::vector<std::function<void()>> steps{
-        [&] { require_closed_to_others(options); },
+        [&] { require_listen(options); },
+        [&] { require_http(options); },
+        [&] { require_tokens_for_all(options); },
         [&] { AllowedOrigins(options.web_origins, options.http); },
         [&] { FrameAncestors{options.web_frame_ancestors}; },
         [&] { TrustedPeers{options.trusted_proxies}; },
-        [&] { require_listen_address(options.listen); },
         [&] {
-            if (!options.http.empty()) parse_host_port("--http", options.http);
             if (!options.probes.empty()) parse_host_port("--probes", options.probes);
         },
         [&] {

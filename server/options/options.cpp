@@ -8,9 +8,11 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "address/loopback.hpp"
+#include "meniscus/near_name.hpp"
 #include "meniscus/reconstructor.hpp"
 #include "options/flags.hpp"
 #include "options/settings_sources.hpp"
@@ -65,6 +67,27 @@ EarlyExit refuse(const std::vector<std::string>& problems) {
     return exit;
 }
 
+/// What of the command line is not known, in its order: options, and if there are none, what else was not expected.
+std::vector<std::string> unknown_arguments(const CLI::App& app) {
+    const std::vector<std::string> left = app.remaining();
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options())
+        names.insert(names.end(), option->get_lnames().begin(), option->get_lnames().end());
+    std::vector<std::string> problems;
+    for (const std::string& argument : left) {
+        const std::size_t begin = argument.find_first_not_of('-');
+        if (begin == 0 || begin == std::string::npos) continue;
+        const std::string option = argument.substr(0, argument.find('='));
+        const std::string near = near_name(std::string_view(option).substr(begin), names);
+        problems.push_back(fmt::format("unknown option {}{}", option,
+                                       suggestion(near.empty() ? "" : "--" + near, "meniscusd --help")));
+    }
+    if (problems.empty())
+        for (const std::string& argument : left)
+            problems.push_back(fmt::format("unexpected argument '{}'; see meniscusd --help", argument));
+    return problems;
+}
+
 /// The requests on the command line beside the settings.
 struct Requests {
     std::string config;
@@ -96,6 +119,9 @@ std::optional<EarlyExit> read_settings(int argc, const char* const* argv, CLI::A
     } catch (const CLI::CallForVersion&) {
         return EarlyExit{.text = fmt::format("meniscusd {}\n", version()), .code = 0};
     } catch (const CLI::ParseError& error) {
+        // Other errors may follow from what is not known.
+        if (const std::vector<std::string> problems = unknown_arguments(app); !problems.empty())
+            return refuse(problems);
         const std::string message = error.what();
         return refuse({message.substr(0, message.find('\n')) + " (see meniscusd --help)"});
     }

@@ -7,13 +7,12 @@
 #include <array>
 #include <cctype>
 #include <fstream>
-#include <numeric>
 #include <set>
 #include <sstream>
 #include <string_view>
-#include <utility>
 
 #include "meniscus/error.hpp"
+#include "meniscus/near_name.hpp"
 
 namespace meniscus::server {
 
@@ -37,36 +36,15 @@ std::string flag_of(std::string_view variable) {
     return flag;
 }
 
-/// Characters to insert, delete or replace.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-        }
-    }
-    return row.back();
-}
-
 /// Whether an option may be set elsewhere than on the command line.
 bool is_setting(const CLI::Option* option) {
     return option->get_configurable();
 }
 
 std::string unknown(const Setting& setting, const CLI::App& app) {
-    std::string nearest;
-    std::size_t least = 4;
-    for (const CLI::Option* option : app.get_options(is_setting)) {
-        const std::string& name = option->get_lnames().front();
-        if (const std::size_t distance = edit_distance(setting.name, name); distance < least) {
-            least = distance;
-            nearest = name;
-        }
-    }
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options(is_setting)) names.push_back(option->get_lnames().front());
+    const std::string nearest = near_name(setting.name, names);
     const std::string hint = nearest.empty() ? "" : fmt::format("; --{} is near it", nearest);
     return fmt::format("{}: there is no setting of this name{} (see meniscusd --help)", setting.where, hint);
 }

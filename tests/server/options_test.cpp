@@ -155,6 +155,15 @@ TEST(Options, ThatAreWrongAreRefusedWithTheirSource) {
     EXPECT_THROW(refusal({"--config", folder / "."}), InvalidInput);
 }
 
+TEST(Options, ThatAreUnknownAreRefusedInTheirOrderWithWhatWasMeant) {
+    EXPECT_EQ(refusal({"--listne", "127.0.0.1:1", "--frobnicate=2", "--http", "off"}),
+              "meniscusd: unknown option --listne, did you mean --listen?\n"
+              "meniscusd: unknown option --frobnicate; see meniscusd --help\n");
+    EXPECT_EQ(refusal({"first", "second"}),
+              "meniscusd: unexpected argument 'first'; see meniscusd --help\n"
+              "meniscusd: unexpected argument 'second'; see meniscusd --help\n");
+}
+
 TEST(Options, ThatAreNumbersAreRefusedWhereTheyAreNone) {
     const std::string text = refusal({"--max-frame-work", "nan", "--check-config"});
     EXPECT_NE(text.find("nan is no number from 0 to 1000000000"), std::string::npos) << text;

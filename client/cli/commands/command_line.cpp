@@ -13,10 +13,11 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "cli/commands/commands.hpp"
-#include "cli/options/near_names.hpp"
 #include "cli/options/option_group.hpp"
+#include "cli/options/refusal.hpp"
 #include "cli/print/warnings.hpp"
 #include "cli/surfaces/mesh_check.hpp"
 #include "meniscus/error.hpp"
@@ -37,6 +38,24 @@ void move_help_last(CLI::App& command) {
     command.set_help_flag();
     const OptionGroup group(command, other_heading);
     command.set_help_flag("-h,--help", "Print this help message and exit");
+}
+
+/// In the order in which CLI11 takes them, the last one first. It would take the value of "-r=3" to be "=3".
+std::vector<std::string> arguments(int argc, const char* const* argv) {
+    std::vector<std::string> taken;
+    bool are_options = true;
+    for (int i = 1; i < argc; ++i) {
+        const std::string argument = argv[i];
+        are_options = are_options && argument != "--";
+        if (are_options && argument.size() > 2 && argument[0] == '-' && argument[1] != '-' && argument[2] == '=') {
+            taken.push_back(argument.substr(0, 2));
+            taken.push_back(argument.substr(3));
+        } else {
+            taken.push_back(argument);
+        }
+    }
+    std::reverse(taken.begin(), taken.end());
+    return taken;
 }
 
 int report(std::string message, ExitCode code) {
@@ -83,7 +102,7 @@ int run(int argc, const char* const* argv) {
     for (CLI::App* command : app.get_subcommands({})) move_help_last(*command);
     app.footer("meniscus help COMMAND explains a command, with examples.");
     try {
-        app.parse(argc, argv);
+        app.parse(arguments(argc, argv));
         if (app.get_subcommands().empty()) throw InvalidInput("a subcommand is needed; meniscus --help lists them");
         return end_of_printing();
     } catch (const CLI::ParseError& e) {

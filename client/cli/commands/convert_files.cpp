@@ -28,6 +28,7 @@ struct FileToConvert {
 std::vector<FileToConvert> files_of(const FileConversion& conversion) {
     FilePattern in(conversion.in);
     FilePattern out(conversion.out);
+    in.require_no_other_notation();
     if (in.has_number() != out.has_number())
         throw InvalidInput("IN '" + conversion.in + "' and OUT '" + conversion.out + "' must both have {} or both not");
     if (!in.has_number()) {

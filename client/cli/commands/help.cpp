@@ -8,8 +8,8 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/examples.hpp"
-#include "cli/options/near_names.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/near_name.hpp"
 
 namespace meniscus::cli {
 namespace {

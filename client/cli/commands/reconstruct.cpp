@@ -98,8 +98,8 @@ public:
         index_ = index;
         const std::string name = formats::input_name(whole_.plan_.frames[index].in);
         try {
-            // Files do not hold their simulation time.
-            for (unsigned run = 0; run < whole_.options_.repeat; ++run) surfaces_->submit(input->frame(), 0.0);
+            for (unsigned run = 0; run < whole_.options_.repeat; ++run)
+                surfaces_->submit(input->frame(), whole_.plan_.frames[index].time);
             finished_.warnings = input->warnings();
             wait_for_turn();
             whole_.forms_.require(input->frame().arrays);
@@ -196,7 +196,7 @@ void Reconstruction::run_on_server() {
     for (std::size_t i = 0; i < plan_.frames.size(); ++i) {
         const auto input = read(i);
         warnings[i] = input->warnings();
-        for (unsigned run = 0; run < options_.repeat; ++run) surfaces->submit(input->frame(), 0.0);
+        for (unsigned run = 0; run < options_.repeat; ++run) surfaces->submit(input->frame(), plan_.frames[i].time);
     }
     surfaces->finish();
 }

@@ -19,19 +19,25 @@ std::vector<FrameFiles> frames_of(const ReconstructFiles& files) {
     FilePattern out(files.out);
     FilePattern spray_out(files.spray_out);
     const bool sequence = in.has_number();
+    in.require_no_other_notation();
     if (!sequence && files.selection.is_given())
         throw InvalidInput("--start, --end, --step and --skip-missing need {} in IN, which is '" + files.in + "'");
+    if (!sequence && files.frame_rate)
+        throw InvalidInput("--frame-rate gives the frames of a sequence their times: it needs {} in IN, which is '" +
+                           files.in + "'");
     if (!files.out.empty() && out.has_number() != sequence)
         throw InvalidInput("IN '" + files.in + "' and OUT '" + files.out + "' must both have {} or both not");
     if (!files.spray_out.empty() && spray_out.has_number() != sequence)
         throw InvalidInput("IN '" + files.in + "' and --spray-out '" + files.spray_out +
                            "' must both have {} or both not");
-    if (!sequence) return {{0, files.in, files.out, files.spray_out}};
+    if (!sequence) return {{.in = files.in, .out = files.out, .spray_out = files.spray_out}};
     std::vector<FrameFiles> frames;
     const auto inputs = files.selection.files(in);
     out.pad_like(in);
     spray_out.pad_like(in);
-    for (const auto& [number, path] : inputs) frames.push_back({number, path, out.at(number), spray_out.at(number)});
+    for (const auto& [number, path] : inputs)
+        frames.push_back({number, path, out.at(number), spray_out.at(number),
+                          files.frame_rate ? static_cast<double>(number) / *files.frame_rate : 0.0});
     return frames;
 }
 
@@ -112,6 +118,18 @@ void ReconstructFiles::add_sequence_to(CLI::App& command) {
     const OptionGroup group(command, sequence_heading);
     command.add_flag("--skip-existing", skip_existing,
                      "Leave the frames alone whose outputs are all there: a run that was interrupted goes on");
+    command
+        .add_option(
+            "--frame-rate", frame_rate,
+            "Frames per second: frame number N, on a server and in .bricks, has the time N / RATE in place of 0")
+        ->type_name("RATE")
+        ->check(CLI::Validator(
+            [](const std::string& text) -> std::string {
+                double rate = 0.0;  // CLI11's Range takes what is no number
+                if (CLI::detail::lexical_cast(text, rate) && rate >= 0.001 && rate <= 1e6) return {};
+                return text + " not in range 0.001 to 1000000";
+            },
+            ""));
     command.add_option("--pvd", pvd, "With .vtp: list the sequence for ParaView in this .pvd, frame numbers as times");
     command.add_option("--usd-stage", usd_stage,
                        "With .usda: a stage that shows the sequence by value clips, frame numbers as time codes");

@@ -28,6 +28,7 @@ struct ReconstructFiles {
     std::string usd_stage;
     FrameSelection selection;
     bool skip_existing = false;
+    std::optional<double> frame_rate;  ///< of a sequence; none: frames have no times
 
     void add_to(CLI::App& command);
     void add_sequence_to(CLI::App& command);
@@ -39,6 +40,7 @@ struct FrameFiles {
     std::filesystem::path in;
     std::filesystem::path out;
     std::filesystem::path spray_out;
+    double time = 0.0;  ///< seconds
 };
 
 /// The frames to reconstruct, and their files.

@@ -74,6 +74,10 @@ void print_sessions(const SessionsOptions& options) {
         std::cout << all.dump(2) << '\n';
         return;
     }
+    if (sessions.empty()) {
+        std::cerr << "meniscus: " << options.server.address << " has no sessions\n";
+        return;
+    }
     std::vector<SessionRow> rows;
     rows.reserve(sessions.size());
     for (const client::SessionInfo& session : sessions) rows.push_back({session, std::nullopt});

@@ -26,6 +26,7 @@ const Line header{"SESSION",  "NAME",    "OWNER",    "STATE",      "WAITS FOR", 
 
 /// Columns of words; the others are numbers, and end where their column ends.
 constexpr std::size_t words = 6;
+constexpr std::size_t rates = 8;
 
 std::string wait_of(const client::SessionInfo& session) {
     switch (session.waits_for) {
@@ -60,7 +61,7 @@ Line line_of(const SessionRow& row, std::chrono::system_clock::time_point now) {
               attributes_of(session.settings),
               has_age ? short_time(now - session.created_at) : "-",
               short_count(session.frames)};
-    line[8] = row.frames_per_second ? fixed(*row.frames_per_second, 1) : "-";
+    line[rates] = row.frames_per_second ? fixed(*row.frames_per_second, 1) : "-";
     const auto& last = session.last_frame;
     line[9] = last ? fixed(last->latency_seconds * 1e3, 1) : "-";
     line[10] = last ? short_count(last->particles) : "-";
@@ -95,6 +96,8 @@ std::vector<SessionRow> FrameRates::update(const std::vector<client::SessionInfo
 std::string session_table(const std::vector<SessionRow>& rows, std::chrono::system_clock::time_point now) {
     std::vector<Line> lines{header};
     for (const SessionRow& row : rows) lines.push_back(line_of(row, now));
+    const bool has_rates =
+        std::any_of(rows.begin(), rows.end(), [](const SessionRow& row) { return row.frames_per_second.has_value(); });
     std::array<std::size_t, column_count> widths{};
     for (const Line& line : lines)
         for (std::size_t i = 0; i < column_count; ++i)
@@ -102,6 +105,7 @@ std::string session_table(const std::vector<SessionRow>& rows, std::chrono::syst
     std::string table;
     for (const Line& line : lines) {
         for (std::size_t i = 0; i < column_count; ++i) {
+            if (i == rates && !has_rates) continue;
             const std::string padding(widths[i] - description::count_characters(line[i]), ' ');
             table += i < words ? line[i] + padding : padding + line[i];
             table += i + 1 < column_count ? "  " : "\n";

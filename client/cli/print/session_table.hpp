@@ -30,7 +30,8 @@ private:
     std::map<std::string, Seen> seen_;  ///< by session
 };
 
-/// A header and a line for each row, each ended by a newline. now: for the sessions' ages.
+/// A header and a line for each row, each ended by a newline; without the column of frames per second where no row
+/// knows them. now: for the sessions' ages.
 std::string session_table(const std::vector<SessionRow>& rows,
                           std::chrono::system_clock::time_point now = std::chrono::system_clock::now());
 

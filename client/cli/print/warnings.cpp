@@ -17,6 +17,15 @@ FileWarning faces_as_particles(std::size_t faces, std::size_t particles) {
                 " corners are taken as particles"};
 }
 
+FileWarning no_particles(std::size_t in_file) {
+    std::string why = "the file has no particles";
+    if (in_file != 0)
+        why = (in_file == 1 ? std::string("the one particle of the file lies")
+                            : "all " + std::to_string(in_file) + " particles of the file lie") +
+              " outside --particle-aabb";
+    return {"no_particles", static_cast<double>(in_file), 0.0, "the surface is empty: " + why};
+}
+
 FileWarning positions_rounded(double moved, double limit, const std::array<double, 3>& middle) {
     std::ostringstream text;
     text << "rounding its float64 positions to float32 moves them by up to " << moved << ", more than " << limit

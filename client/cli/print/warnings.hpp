@@ -35,6 +35,8 @@ struct FileWarning {
 
 /// The file is a mesh of `faces` faces; its corners were taken for particles.
 FileWarning faces_as_particles(std::size_t faces, std::size_t particles);
+/// in_file: number of the particles before those outside --particle-aabb were left out.
+FileWarning no_particles(std::size_t in_file);
 /// float32 has moved a particle by `moved`, world units. middle: an origin that keeps them.
 FileWarning positions_rounded(double moved, double limit, const std::array<double, 3>& middle);
 

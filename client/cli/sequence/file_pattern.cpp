@@ -62,6 +62,24 @@ std::map<std::uint64_t, std::filesystem::path> FilePattern::match_existing() {
     return found;
 }
 
+void FilePattern::require_no_other_notation() const {
+    std::error_code none;
+    if (has_number_ || std::filesystem::exists(text_, none)) return;
+    std::string here;
+    if (const std::size_t star = text_.find('*'); star != std::string::npos) {
+        here = text_.substr(0, star) + "{}" + text_.substr(star + 1);
+    } else if (const std::size_t percent = text_.find('%'); percent != std::string::npos) {
+        const std::size_t end = text_.find_first_not_of("0123456789", percent + 1);
+        if (end == std::string::npos || text_[end] != 'd') return;
+        const std::string width = text_.substr(percent + 1, end - percent - 1);
+        here = text_.substr(0, percent) + (width.size() == 2 && width[0] == '0' ? "{:" + width + "}" : "{}") +
+               text_.substr(end + 1);
+    } else {
+        return;
+    }
+    throw InvalidInput(text_ + ": no such file; a sequence has {} for the numbers, as '" + here + "'");
+}
+
 void FilePattern::pad_like(const FilePattern& other) {
     if (!fixed_width_) width_ = other.width_;
 }

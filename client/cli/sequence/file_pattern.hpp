@@ -25,6 +25,10 @@ public:
     /// Writes `{}` as the other pattern does.
     void pad_like(const FilePattern& other);
 
+    /// Throws InvalidInput for a name that is no file and looks like a sequence in another notation, frame_*.vtk or
+    /// frame_%04d.vtk, with how it is written here.
+    void require_no_other_notation() const;
+
 private:
     std::string text_;
     std::string before_;

@@ -21,7 +21,9 @@ ParticleInput::ParticleInput(const std::filesystem::path& path, const ParticleIn
     : particles_(formats::read_particles(path, options.format, options.limits)) {
     const std::string name = formats::input_name(path);
     if (particles_.faces != 0) warnings_.push_back(faces_as_particles(particles_.faces, particles_.count()));
+    const std::size_t in_file = particles_.count();
     if (options.box) editing::keep_inside(particles_, *options.box);
+    if (particles_.count() == 0) warnings_.push_back(no_particles(in_file));
     if (options.origin) editing::move_to(particles_, *options.origin);
     warn_of_rounding(settings.particle_radius);
     choose_arrays(settings, name);

@@ -23,7 +23,7 @@ class Reconstructor:
     .. rows: settings
 
     cell_size           0.5: edge of a finest cell, in particle radii
-    iso                 0.6: field value at the surface
+    iso                 0.6: field value at the surface; with the field smooth less than 1, and 0.4 to 0.7 as a rule
     field               "smooth": function whose iso-surface is the fluid surface; "color", "density", "smooth"
     smoothness          6: with smooth, the widest support in particle radii, 5 to 7; more is smoother and slower
     spray               "keep": with smooth, particles without company become drops (keep), are left out (discard),

@@ -175,7 +175,7 @@ inline constexpr std::uint32_t max_smoothness = 7;
 struct Settings {
     double particle_radius = 0.0;  ///< world units, finite, > 0; that of level 0 for adaptive SPH
     double cell_size = 0.5;  ///< radii, > 0: edge of a finest cell; at least support/256 of the coarsest particle level
-    double iso = 0.6;        ///< field value at the surface, > 0
+    double iso = 0.6;        ///< field value at the surface, > 0; Field::smooth: < 1
     Field field = Field::smooth;
     /// Field::color and Field::density only: > 0; the kernel's support is twice that. None: 2.
     std::optional<double> smoothing_length;
@@ -214,7 +214,7 @@ struct Settings {
                .letter = 'c',
                .group = surface});
         visit("iso", &Settings::iso,
-              {.help = "Field value at the surface",
+              {.help = "Field value at the surface; with the field smooth less than 1, and 0.4 to 0.7 as a rule",
                .range = {above_zero, 1e30, "inside a fluid the field is about 1"},
                .subject = "iso value is",
                .letter = 't',

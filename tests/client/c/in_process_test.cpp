@@ -191,7 +191,7 @@ TEST(CInProcess, RefusesWrongOptionsNamingValueAndLimit) {
         std::string named;
     };
     const Case cases[] = {
-        {{{"cell-sise", "1"}}, "option 'cell-sise' is not known here, must be backend, threads"},
+        {{{"policy", "latest"}}, "option 'policy' is not known here, must be backend, threads"},
         {{{"cell-size", "wide"}}, "option 'cell-size' is 'wide', must be a number"},
         {{{"cell-size", "0.5 "}}, "option 'cell-size' is '0.5 '"},
         {{{"cell-size", "0,5"}}, "option 'cell-size' is '0,5'"},
@@ -220,6 +220,21 @@ TEST(CInProcess, RefusesWrongOptionsNamingValueAndLimit) {
     CReconstructor reconstructor;
     EXPECT_TRUE(refused(meniscus_reconstructor_create(nullptr, reconstructor.out()), MENISCUS_INVALID_INPUT,
                         "option 'particle-radius' is not set"));
+}
+
+TEST(CInProcess, RefusesAnOptionThatNoFunctionKnowsWhereItIsSet) {
+    const COptions options = options_of({{"particle-radius", "0.025"}});
+    for (const char* value : {"1", static_cast<const char*>(nullptr)})
+        EXPECT_TRUE(refused(meniscus_options_set(options.get(), "cel-size", value), MENISCUS_INVALID_INPUT,
+                            "option 'cel-size' is not known, did you mean cell-size?"));
+    EXPECT_TRUE(refused(meniscus_options_set_number(options.get(), "frobnicate", 1.0), MENISCUS_INVALID_INPUT,
+                        "option 'frobnicate' is not known; see meniscus.h"));
+    CReconstructor reconstructor;
+    EXPECT_EQ(meniscus_reconstructor_create(options.get(), reconstructor.out()), MENISCUS_OK);
+    // Those of sessions, streams, connections and watchers are known, too.
+    for (const char* name : {"preset", "attribute", "attribute-bits", "tolerance", "backend", "name", "policy", "codec",
+                             "reconnect", "token", "max-level"})
+        EXPECT_EQ(meniscus_options_set(options.get(), name, "1"), MENISCUS_OK) << meniscus_error_message();
 }
 
 TEST(CInProcess, AnOptionThatIsUnsetIsNotSet) {
@@ -407,9 +422,9 @@ TEST(CInProcess, ALongMessageEndsBetweenCharacters) {
     for (std::size_t before = 0; before < 4; ++before) {
         std::string name(before, 'x');
         for (int i = 0; i < 1000; ++i) name += "\u20ac";  // three bytes each
-        const COptions options = options_of({{"particle-radius", "1"}, {name.c_str(), "1"}});
-        CReconstructor reconstructor;
-        ASSERT_EQ(meniscus_reconstructor_create(options.get(), reconstructor.out()), MENISCUS_INVALID_INPUT);
+        const COptions options = options_of({{"tls-cert", name.c_str()}, {"tls-key", "key"}});
+        CClient client;
+        ASSERT_EQ(meniscus_client_connect("127.0.0.1:1", options.get(), client.out()), MENISCUS_INVALID_INPUT);
         const std::string message = meniscus_error_message();
         EXPECT_GT(message.size(), 1017U);
         EXPECT_LT(message.size(), 1024U);

@@ -54,6 +54,11 @@ TEST_F(NearNames, AreOfferedForOptionsAndCommands) {
     expect_refused(reconstruct({"--no-normal"}), {"did you mean --no-normals?"});
     expect_refused(reconstruct({"--frobnicate"}), {"unknown option --frobnicate; see meniscus reconstruct --help"});
     expect_refused(reconstruct({"surplus"}), {"unexpected argument 'surplus'; see meniscus reconstruct --help"});
+    expect_refused(reconstruct({"-n", "4"}), {"unknown option -n, which is splashsurf's: here --threads"});
+    expect_refused(reconstruct({"--mesh-smoothing-iters=25"}),
+                   {"which is splashsurf's: here --field smooth; the default"});
+    expect_refused({"reconstruct", in_, in_, in_, "-o", out_, "-r", "1"},
+                   {"unexpected argument '" + in_ + "'", "'frame_{}.vtk'"});
     expect_refused({"recontruct"}, {"unknown command 'recontruct', did you mean reconstruct?"});
     expect_refused({"help", "recontruct"}, {"unknown command 'recontruct', did you mean reconstruct?"});
     expect_refused({"levitate"}, {"unknown command 'levitate'; see meniscus --help"});

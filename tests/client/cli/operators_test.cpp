@@ -17,6 +17,9 @@
 #include <vector>
 
 #include "daemon/server.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/recordings/brick_file.hpp"
 #include "meniscus/client/client.hpp"
 #include "process.hpp"
 #include "sample_files.hpp"
@@ -82,6 +85,15 @@ TEST_F(Operators, ListSessionsForPeopleAndForPrograms) {
     EXPECT_EQ(json[0]["frames"], 2);
     EXPECT_EQ(json[0]["last_frame"]["particles"], 2);
     EXPECT_GT(json[0]["last_frame"]["latency_seconds"], 0);
+}
+
+TEST_F(Operators, SayThatThereAreNoSessions) {
+    client.delete_session(id);
+    const ProcessResult result = run({"sessions"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err, "meniscus: " + server.address() + " has no sessions\n");
+    EXPECT_EQ(run({"sessions", "--json"}).out, "[]\n");
 }
 
 TEST_F(Operators, MayStopWatchingASessionThatRests) {
@@ -244,6 +256,19 @@ TEST_F(Operators, EndWhatTheyBeganWithTheCommandHoweverThatEnds) {
     wait_for_session(client, "killed");
     EXPECT_EQ(simulate.end_by(SIGKILL), SIGKILL);
     while (client.sessions().size() > 1) std::this_thread::yield();
+}
+
+TEST_F(Operators, SendTheTimesOfASequence) {
+    const std::string frame(12, '\0');  // one particle
+    for (const char* name : {"f_1.xyz", "f_2.xyz"}) formats::write_file(directory / name, frame);
+    EXPECT_EQ(run({"reconstruct", (directory / "f_{}.xyz").string(), "-o", (directory / "m_{}.bricks").string(), "-r",
+                   "0.5", "--frame-rate", "4"})
+                  .exit_code,
+              0);
+    for (const int number : {1, 2}) {
+        const std::filesystem::path file = directory / ("m_" + std::to_string(number) + ".bricks");
+        EXPECT_EQ(formats::read_bricks(file.string(), formats::read_file(file)).simulation_time, number / 4.0);
+    }
 }
 
 TEST_F(Operators, KeepASessionOnlyIfTheyWishTo) {

@@ -1,13 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
-#include "cli/options/near_names.hpp"
+#include "cli/options/splashsurf.hpp"
 #include "cli/print/settings_json.hpp"
 #include "cli/print/statistics_json.hpp"
 #include "cli/sequence/file_pattern.hpp"
 #include "cli/surfaces/quantized_positions.hpp"
 #include "formats/bytes/atomic_file.hpp"
+#include "meniscus/near_name.hpp"
 #include "sample_files.hpp"
 
 namespace meniscus::cli {
@@ -79,6 +82,59 @@ TEST(NearName, IsTheOneWithTheFewestChangesIfThoseAreFew) {
     EXPECT_EQ(near_name("feild", names), "field");
     EXPECT_EQ(near_name("ios", names), "iso");
     for (const char* far : {"", "x", "frobnicate", "threads"}) EXPECT_EQ(near_name(far, names), "") << far;
+}
+
+/// A cell of a table in Markdown as its words alone.
+std::string words_of_cell(std::string cell) {
+    std::erase(cell, '`');
+    for (std::size_t open = cell.find("]("); open != std::string::npos; open = cell.find("]("))
+        cell.erase(open, cell.find(')', open) + 1 - open);
+    std::erase(cell, '[');
+    const std::size_t first = cell.find_first_not_of(' ');
+    return first == std::string::npos ? "" : cell.substr(first, cell.find_last_not_of(' ') + 1 - first);
+}
+
+TEST(Splashsurf, HasTheRowsOfTheDocument) {
+    std::ifstream document(MENISCUS_CLIENT_DOCUMENT);
+    std::string line;
+    while (std::getline(document, line) && !line.starts_with("| splashsurf | Meniscus |")) continue;
+    std::getline(document, line);
+    for (const SplashsurfRow& row : splashsurf_rows) {
+        ASSERT_TRUE(std::getline(document, line));
+        std::vector<std::string> cells;
+        std::istringstream text(line.substr(1));
+        for (std::string cell; std::getline(text, cell, '|');) cells.push_back(words_of_cell(cell));
+        EXPECT_EQ(cells, (std::vector<std::string>{std::string(row.options), std::string(row.here),
+                                                   std::string(row.differs)}));
+    }
+    EXPECT_TRUE(std::getline(document, line) && line.empty()) << line;
+}
+
+TEST(Splashsurf, IsAnsweredByTheRowOfTheOption) {
+    EXPECT_EQ(splashsurf_option("reconstruct", "-n"), "here --threads");
+    EXPECT_EQ(splashsurf_option("reconstruct", "-n4"), "here --threads");
+    EXPECT_EQ(splashsurf_option("reconstruct", "--output-dir"), "the folder is part of -o");
+    EXPECT_EQ(splashsurf_option("reconstruct", "--subdomain-cubes"), "work and memory follow the surface");
+    EXPECT_EQ(splashsurf_option("convert", "--domain-max"), "here reconstruct --particle-aabb");
+    EXPECT_EQ(splashsurf_option("reconstruct", "--domain-max"), "");
+    EXPECT_EQ(splashsurf_option("reconstruct", "--subdomain"), "");
+    EXPECT_EQ(splashsurf_option("reconstruct", "--num-thread"), "");
+    EXPECT_EQ(splashsurf_option("reconstruct", "-domain"), "");
+}
+
+TEST(FilePattern, NamesItsOwnNotationForASequenceInAnother) {
+    const test::TemporaryDirectory directory;
+    const auto refused = [](const std::string& text) {
+        return test::refusal([&] { FilePattern(text).require_no_other_notation(); });
+    };
+    EXPECT_NE(refused("a/frame_*.vtk").find("as 'a/frame_{}.vtk'"), std::string::npos);
+    EXPECT_NE(refused("frame_%04d.vtk").find("as 'frame_{:04}.vtk'"), std::string::npos);
+    EXPECT_NE(refused("frame_%d.vtk").find("as 'frame_{}.vtk'"), std::string::npos);
+    EXPECT_NE(refused("frame_%6d.vtk").find("as 'frame_{}.vtk'"), std::string::npos);
+    for (const char* other : {"frame.vtk", "frame_{}_*.vtk", "50%.vtk", "50%", "%x.vtk", "-"})
+        EXPECT_NO_THROW(FilePattern(other).require_no_other_notation()) << other;
+    formats::write_file(directory / "a*b.vtk", "");
+    EXPECT_NO_THROW(FilePattern((directory / "a*b.vtk").string()).require_no_other_notation());
 }
 
 TEST(QuantizedPositions, AreWithinHalfAStepAndExactAtTheCorners) {

@@ -61,6 +61,25 @@ TEST_F(Cli, RefusesBadArguments) {
     expect_refused({"reconstruct", in_, "--particle-radius", "0.5"}, {"-o", "--stats"});
 }
 
+TEST_F(Cli, TakesTheValueOfAShortFlagInEachNotation) {
+    for (const std::vector<std::string>& radius :
+         std::vector<std::vector<std::string>>{{"-r", "0.5"}, {"-r0.5"}, {"-r=0.5"}, {"--particle-radius=0.5"}}) {
+        std::vector<std::string> command{"reconstruct", in_, "-o", out_, "-q"};
+        command.insert(command.end(), radius.begin(), radius.end());
+        const ProcessResult result = run_meniscus(command);
+        EXPECT_EQ(result.exit_code, 0) << radius.front() << ": " << result.err;
+    }
+    expect_refused({"reconstruct", in_, "-o", out_, "-r=half"}, {"--particle-radius", "half"});
+}
+
+TEST_F(Cli, AnswersASequenceInAnotherNotationWithItsOwn) {
+    for (const char* name : {"f_*.vtk", "f_%03d.vtk"}) {
+        expect_refused({"reconstruct", path(name), "-o", out_, "-r", "0.5"},
+                       {"no such file", "has {} for the numbers"});
+        expect_refused({"convert", path(name), "-o", path("f_{}.ply")}, {"no such file", "has {} for the numbers"});
+    }
+}
+
 TEST_F(Cli, RefusesOptionsThatAreEmptyInPlaceOfTakingThemAsNotGiven) {
     expect_refused(reconstruct({"--server", ""}), {"--server", "empty", "HOST:PORT"});
     expect_refused({"info", "--server", ""}, {"--server", "empty", "HOST:PORT"});
@@ -278,14 +297,27 @@ TEST_F(Cli, WritesThePointsThatAreLeftOutOfTheSurface) {
     expect_refused(points, {"spray.obj", ".ply"});
 }
 
-TEST_F(Cli, AnEmptyFrameGivesAnEmptyMesh) {
+TEST_F(Cli, AnEmptyFrameGivesAnEmptyMeshAndAWarning) {
     const std::string empty = write("empty.xyz", "");
     for (const char* positions : {"float32", "uint16"}) {
-        const ProcessResult result =
-            run_meniscus({"reconstruct", empty, "-o", out_, "--particle-radius", "0.5", "--positions", positions});
-        EXPECT_EQ(result.exit_code, 0) << result.err;
+        std::vector<std::string> command{"reconstruct",       empty, "-o",          out_,
+                                         "--particle-radius", "0.5", "--positions", positions};
+        const ProcessResult result = run_meniscus(command);
+        EXPECT_EQ(result.exit_code, 0);
+        const std::string warning =
+            "meniscus: warning: " + empty + ": the surface is empty: the file has no particles\n";
+        EXPECT_TRUE(result.err.starts_with(warning)) << result.err;
         EXPECT_TRUE(formats::read_mesh(out_).triangles.empty());
+        command.emplace_back("--strict");
+        EXPECT_EQ(run_meniscus(command).exit_code, 3);
     }
+    const ProcessResult outside =
+        run_meniscus({"reconstruct", write("two.xyz", std::string(24, '\0')), "-o", out_, "--particle-radius", "0.5",
+                      "--particle-aabb", "4", "4", "4", "5", "5", "5", "--stats", path("s.json"), "-q"});
+    EXPECT_NE(outside.err.find("all 2 particles of the file lie outside --particle-aabb"), std::string::npos)
+        << outside.err;
+    const nlohmann::json figures = nlohmann::json::parse(formats::read_file(path("s.json")));
+    EXPECT_EQ(figures.at("warnings").at(0).at("code"), "no_particles");
 }
 
 TEST_F(Cli, SimulatesAndWritesParticlesThatItReadsBack) {

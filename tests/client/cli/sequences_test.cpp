@@ -15,6 +15,7 @@
 
 #include "cli_fixture.hpp"
 #include "formats/meshes/mesh_file.hpp"
+#include "formats/recordings/brick_file.hpp"
 #include "terminal_program.hpp"
 
 namespace meniscus::test {
@@ -69,6 +70,38 @@ TEST_F(Sequences, AreTheSameForAnyNumberOfFramesAtATime) {
     EXPECT_EQ(figures[0], figures[2]);
     EXPECT_EQ(figures[0].size(), std::size_t{frame_count});
     EXPECT_EQ(figures[0][3][0], 3);
+}
+
+TEST_F(Sequences, HaveTheTimesOfTheirNumbersByTheirFrameRate) {
+    const auto times_at = [&](const std::vector<std::string>& rate) {
+        std::vector<std::string> command{"reconstruct",
+                                         path("f_{}.xyz"),
+                                         "-o",
+                                         path("m_{}.bricks"),
+                                         "-r",
+                                         "0.5",
+                                         "-c",
+                                         "1",
+                                         "-q",
+                                         "--start",
+                                         "4",
+                                         "--end",
+                                         "7",
+                                         "--step",
+                                         "3"};
+        command.insert(command.end(), rate.begin(), rate.end());
+        EXPECT_EQ(run_meniscus(command).exit_code, 0);
+        std::vector<double> times;
+        for (const char* name : {"m_04.bricks", "m_07.bricks"})
+            times.push_back(formats::read_bricks(name, formats::read_file(path(name))).simulation_time);
+        return times;
+    };
+    EXPECT_EQ(times_at({"--frame-rate", "8"}), (std::vector<double>{0.5, 0.875}));
+    EXPECT_EQ(times_at({}), (std::vector<double>{0.0, 0.0}));
+    expect_refused({"reconstruct", path(frame_name(0)), "-o", out_, "-r", "0.5", "--frame-rate", "8"},
+                   {"--frame-rate", "needs {} in IN"});
+    for (const char* wrong : {"0", "-1", "nan", "2000000"})
+        expect_refused(sequence("wrong", {"--frame-rate", wrong}), {"--frame-rate", wrong});
 }
 
 TEST_F(Sequences, EndAtABadFrameWhichIsNamedWithAllBeforeItWhole) {

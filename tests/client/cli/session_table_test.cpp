@@ -56,6 +56,15 @@ TEST(SessionTable, HasColumnsThatAlign) {
         EXPECT_NE(table.find(word), std::string::npos) << word << '\n' << table;
 }
 
+TEST(SessionTable, HasFramesPerSecondWhereTheyAreKnown) {
+    const client::SessionInfo one = session("one", 7), two = session("two", 8);
+    const auto now = std::chrono::system_clock::now();
+    EXPECT_NE(cli::session_table({{one, 1.5}, {two, std::nullopt}}, now).find("FRAMES/S"), std::string::npos);
+    const std::string table = cli::session_table({{one, std::nullopt}, {two, std::nullopt}}, now);
+    EXPECT_EQ(table.find("FRAMES/S"), std::string::npos) << table;
+    EXPECT_NE(table.find("FRAMES  LATENCY MS"), std::string::npos) << table;
+}
+
 TEST(SessionTable, IsOneLineForEachSessionWhateverItsNameIs) {
     client::SessionInfo hostile = session("new", 0);
     hostile.description.name = "a\nb\x1b[2J";  // from a server that lets it pass

@@ -56,6 +56,7 @@ TEST(Validation, RefusesEverySettingOutOfRangeNamingItsValue) {
         {[](Settings& s) { s.cell_size = -0.5; }, "cell size is -0.5"},
         {[](Settings& s) { s.cell_size = 0.015; }, "spans 400 cells"},
         {[](Settings& s) { s.iso = 0.0; }, "iso value is 0"},
+        {[](Settings& s) { s.iso = 1.0; }, "iso value is 1, must be less than 1 with the field smooth"},
         {[](Settings& s) { s.iso = 1e-60; }, "iso value is 1e-60, must be greater than 0 as a float32"},
         {[](Settings& s) { s.criterion = CurvatureCriterion{0.0}; }, "tolerance is 0"},
         {[&](Settings& s) { s.criterion = CurvatureCriterion{nan}; }, "tolerance is nan"},

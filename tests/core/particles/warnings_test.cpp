@@ -62,9 +62,23 @@ void expect_fits(const ParticleFrame& frame, double right) {
     for (const double off : {1.0 / 1000, 1.0 / 10, 1.0 / 3, 3.0, 10.0, 1000.0}) {
         const auto fitting = radius_that_fits(frame, off * right);
         ASSERT_TRUE(fitting) << off << " times off";
-        EXPECT_GT(*fitting, 0.75 * right) << off << " times off";
-        EXPECT_LT(*fitting, 1.35 * right) << off << " times off";
+        EXPECT_GT(fitting->radius, 0.75 * right) << off << " times off";
+        EXPECT_LT(fitting->radius, 1.35 * right) << off << " times off";
+        EXPECT_EQ(fitting->alone, 0.0) << off << " times off";
     }
+}
+
+/// Names a radius that joins particles that lie scattered at one `off` times too small, with the share that is alone.
+void expect_scattered(const ParticleFrame& frame, double right, double off, double least_alone) {
+    SCOPED_TRACE(testing::Message() << off << " times too small");
+    const auto fitting = radius_that_fits(frame, right / off);
+    ASSERT_TRUE(fitting);
+    EXPECT_GT(fitting->radius, 0.75 * right);
+    EXPECT_LT(fitting->radius, 1.35 * right);
+    EXPECT_GE(fitting->alone, least_alone);
+    EXPECT_LE(fitting->alone, 1.0);
+    // That radius is silent.
+    EXPECT_FALSE(radius_that_fits(frame, fitting->radius));
 }
 
 TEST(RadiusWarning, NamesTheRadiusOfALatticeHoweverItIsJittered) {
@@ -132,12 +146,60 @@ TEST(RadiusWarning, IsSilentAboutParticlesThatTheirOwnQuantizationPutsTogether) 
     }
 }
 
-TEST(RadiusWarning, IsSilentAboutSpray) {
+TEST(RadiusWarning, TakesNoParticlesAtRandomForWater) {
     for (unsigned seed = 0; seed < 20; ++seed)
         for (const int count : {300, 3000})
-            for (const float apart : {3.0F, 6.0F, 20.0F, 1000.0F})
-                EXPECT_FALSE(radius_that_fits(cloud(count, apart, seed).frame(), radius))
+            for (const float apart : {3.0F, 6.0F, 20.0F, 1000.0F}) {
+                const auto fitting = radius_that_fits(cloud(count, apart, seed).frame(), radius);
+                EXPECT_EQ(fitting.has_value(), apart > 3.0F)
                     << count << " particles " << apart << " radii apart, seed " << seed;
+                if (fitting) {
+                    EXPECT_GT(fitting->alone, 0.5);
+                }
+            }
+}
+
+TEST(RadiusWarning, NamesTheRadiusThatJoinsParticlesAtRandom) {
+    // Half of them touch no other at a radius twice too small, and nine of ten at four times.
+    for (unsigned seed = 0; seed < 5; ++seed)
+        for (const int count : {1000, 20000}) {
+            const test::Particles particles = cloud(count, 2.0F, seed);
+            for (const auto& [off, alone] : {std::pair{2.0, 0.4}, {4.0, 0.85}, {8.0, 0.97}, {10.0, 0.98}})
+                expect_scattered(particles.frame(), radius, off, alone);
+        }
+}
+
+TEST(RadiusWarning, SpeaksOfALatticeTwiceTooWide) {
+    // As water or as scattered: the sixth of those at its border is as far as that of water.
+    for (const float jitter : {0.0F, 0.1F}) expect_scattered(lattice(12, 12, 12, jitter).frame(), radius, 2.0, 0.0);
+    for (const double joined : {1.1, 1.3})
+        EXPECT_FALSE(radius_that_fits(lattice(12, 12, 12).frame(), radius / joined)) << joined;
+}
+
+TEST(RadiusWarning, IsSilentAboutThreadsAndAboutFilms) {
+    test::Particles threads;
+    for (int thread = 0; thread < 10; ++thread)
+        for (int i = 0; i < 100; ++i)
+            threads.add(0.05F * static_cast<float>(i), 2.0F * static_cast<float>(thread), 0.0F);
+    for (const double off : {1.0, 1.2}) {
+        EXPECT_FALSE(radius_that_fits(threads.frame(), radius / off));
+        for (const float jitter : {0.0F, 0.2F, 0.4F})
+            EXPECT_FALSE(radius_that_fits(lattice(40, 40, 1, jitter).frame(), radius / off)) << off << ' ' << jitter;
+    }
+}
+
+TEST(RadiusWarning, SaysHowManyOfScatteredParticlesAreAloneUnlessTheyAreLeftOutAsSpray) {
+    const test::Particles particles = cloud(3000, 20.0F, 1);
+    Settings settings = test::default_settings();
+    const std::vector<Warning> warnings = warnings_of(particles.frame(), settings);
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_EQ(warnings[0].code, WarningCode::radius_too_small);
+    EXPECT_EQ(warnings[0].value, radius);
+    EXPECT_NEAR(warnings[0].limit, 10.0 * radius, 2.5 * radius);
+    EXPECT_NE(warnings[0].text.find(" % of the particles touch no other"), std::string::npos) << warnings[0].text;
+    EXPECT_NE(warnings[0].text.find("would join them"), std::string::npos) << warnings[0].text;
+    settings.spray = Spray::points;
+    EXPECT_TRUE(codes_of(particles.frame(), settings).empty());
 }
 
 TEST(RadiusWarning, IsSilentAboutWaterAmongMoreSpray) {
@@ -192,7 +254,7 @@ TEST(RadiusWarning, IsGivenWithTheRadiusAndTheOneThatFits) {
     ASSERT_EQ(small.size(), 1U);
     EXPECT_EQ(small[0].code, WarningCode::radius_too_small);
     EXPECT_EQ(small[0].value, radius / 3);
-    EXPECT_EQ(small[0].limit, radius_that_fits(particles.frame(), radius / 3));
+    EXPECT_EQ(small[0].limit, radius_that_fits(particles.frame(), radius / 3)->radius);
     EXPECT_NE(small[0].text.find("0.00833333 is too small"), std::string::npos) << small[0].text;
     settings.particle_radius = radius * 3;
     const std::vector<Warning> large = warnings_of(particles.frame(), settings);
@@ -202,7 +264,7 @@ TEST(RadiusWarning, IsGivenWithTheRadiusAndTheOneThatFits) {
 
 TEST(EmptySurfaceWarning, HasTheGreatestValueThatWasSampled) {
     const test::Particles particles = lattice(6, 6, 6);
-    for (const Field field : {Field::color, Field::density})  // the smooth field is lifted above any threshold
+    for (const Field field : {Field::color, Field::density})  // that of the smooth field is below 1
         for (const Mode mode : {Mode::adaptive, Mode::uniform}) {
             Settings settings = test::default_settings();
             settings.field = field;
@@ -238,6 +300,21 @@ TEST(EmptySurfaceWarning, SaysThatAllIsSprayOrThatTheDomainHoldsNothing) {
     ASSERT_EQ(warnings.size(), 1U);
     EXPECT_NE(warnings[0].text.find("none lies in the domain"), std::string::npos) << warnings[0].text;
     EXPECT_LT(warnings[0].value, settings.iso);  // samples beyond the border are not counted
+}
+
+TEST(EmptySurfaceWarning, IsGivenInTheSmoothFieldWhereDropsAreSmallerThanCells) {
+    test::Particles lone;
+    lone.add(0.011F, 0.004F, 0.006F);
+    for (const Mode mode : choices<Mode>) {
+        Settings settings = test::default_settings();
+        settings.mode = mode;
+        settings.iso = 0.999;
+        const std::vector<Warning> warnings = warnings_of(lone.frame(), settings);
+        ASSERT_EQ(warnings.size(), 1U);
+        EXPECT_EQ(warnings[0].code, WarningCode::empty_surface);
+        EXPECT_LT(warnings[0].value, 0.999);
+        EXPECT_EQ(warnings[0].limit, 0.999);
+    }
 }
 
 TEST(EmptySurfaceWarning, IsNotGivenWithoutParticles) {

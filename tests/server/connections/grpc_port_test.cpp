@@ -100,6 +100,20 @@ TEST(GrpcPort, RefusesAddressesThatAreNone) {
     }
 }
 
+TEST(GrpcPort, IsRefusedWithoutAHostWithTheAddressesThatAreMeant) {
+    for (const char* flag : {"--listen", "--http"}) {
+        try {
+            parse_host_port(flag, "50098");
+            ADD_FAILURE() << "it is taken";
+        } catch (const InvalidInput& error) {
+            EXPECT_EQ(error.what(), std::string(flag) +
+                                        " 50098 has no host: give 127.0.0.1:50098 for this machine "
+                                        "alone, or 0.0.0.0:50098 for others, too");
+        }
+    }
+    EXPECT_EQ(problems_of(listening_on("50098")).size(), 1U);
+}
+
 TEST(GrpcPort, IsAliveWhileItIsFull) {
     const TestCertificates certificates;
     for (const TlsFiles& files : {TlsFiles{}, certificates.server_files(), certificates.mutual_files()}) {

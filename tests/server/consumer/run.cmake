@@ -6,6 +6,11 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 file(RENAME ${WORK}/prefix ${WORK}/moved)
+foreach(license LICENSE copyright)
+  if(NOT EXISTS ${WORK}/moved/share/doc/meniscus/${license})
+    message(FATAL_ERROR "the installed folder lacks share/doc/meniscus/${license}")
+  endif()
+endforeach()
 run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=${CONFIGURATION}
     -DCMAKE_PREFIX_PATH=${WORK}/moved -DEXAMPLES=${WORK}/moved/share/doc/libmeniscus-dev/examples
     "-DCMAKE_C_FLAGS=${FLAGS}" "-DCMAKE_CXX_FLAGS=${FLAGS}")

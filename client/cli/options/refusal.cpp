@@ -1,28 +1,17 @@
-#include "cli/options/near_names.hpp"
+#include "cli/options/refusal.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include "cli/options/splashsurf.hpp"
+#include "meniscus/near_name.hpp"
 
 namespace meniscus::cli {
 namespace {
-
-/// The least number of changes: the optimal string alignment distance.
-std::size_t changes(std::string_view a, std::string_view b) {
-    std::vector<std::vector<std::size_t>> least(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-    for (std::size_t i = 0; i <= a.size(); ++i)
-        for (std::size_t j = 0; j <= b.size(); ++j) {
-            if (i == 0 || j == 0) {
-                least[i][j] = i + j;
-                continue;
-            }
-            least[i][j] = std::min(
-                {least[i - 1][j] + 1, least[i][j - 1] + 1, least[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                least[i][j] = std::min(least[i][j], least[i - 2][j - 2] + 1);
-        }
-    return least[a.size()][b.size()];
-}
 
 /// The option without what CLI11 takes for a part of it, such as "=3".
 std::string option_name(const std::string& argument) {
@@ -34,6 +23,8 @@ bool is_option(const std::string& argument) {
 }
 
 std::string refuse_option(const CLI::App& command, const std::string& full_name, const std::string& option) {
+    if (const std::string here = splashsurf_option(command.get_name(), option); !here.empty())
+        return "unknown option " + option + ", which is splashsurf's: " + here;
     std::vector<std::string> names;
     for (const CLI::Option* known : command.get_options())
         names.insert(names.end(), known->get_lnames().begin(), known->get_lnames().end());
@@ -48,26 +39,17 @@ std::string refuse_command(const CLI::App& app, const std::string& name) {
     return "unknown command '" + name + "'" + suggestion(near_name(name, names), app.get_name() + " --help");
 }
 
+/// Of the commands that take sequences: a shell makes many arguments of frame_*.vtk.
+std::string refuse_argument(const CLI::App& command, const std::string& full_name, const std::string& argument) {
+    std::error_code none;
+    const bool is_one_of_many =
+        command.get_option_no_throw("--skip-missing") != nullptr && std::filesystem::is_regular_file(argument, none);
+    return "unexpected argument '" + argument + "'; " +
+           (is_one_of_many ? "a sequence is one argument with {} for the numbers, as 'frame_{}.vtk'"
+                           : "see " + full_name + " --help");
+}
+
 }  // namespace
-
-std::string near_name(std::string_view name, const std::vector<std::string>& names) {
-    constexpr std::size_t shortest_beginning = 3;
-    std::size_t least = 2 + name.size() / 4;
-    std::string nearest;
-    for (const std::string& candidate : names) {
-        const bool begun = name.size() >= shortest_beginning && candidate.starts_with(name);
-        const std::size_t count = begun ? 1 : changes(name, candidate);
-        if (count < least) {
-            least = count;
-            nearest = candidate;
-        }
-    }
-    return nearest;
-}
-
-std::string suggestion(const std::string& near, const std::string& list) {
-    return near.empty() ? "; see " + list : ", did you mean " + near + "?";
-}
 
 std::string refusal(const CLI::App& app, const CLI::ParseError& error) {
     const auto commands = app.get_subcommands();
@@ -78,7 +60,7 @@ std::string refusal(const CLI::App& app, const CLI::ParseError& error) {
     if (option != left.end() && *option != "--") return refuse_option(command, full_name, option_name(*option));
     if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || left.empty()) return error.what();
     if (commands.empty()) return refuse_command(app, left.front());
-    return "unexpected argument '" + left.front() + "'; see " + full_name + " --help";
+    return refuse_argument(command, full_name, left.front());
 }
 
 }  // namespace meniscus::cli

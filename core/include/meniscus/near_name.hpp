@@ -5,22 +5,13 @@
 #include <string_view>
 #include <vector>
 
-namespace CLI {
-class App;
-class ParseError;
-}  // namespace CLI
-
-namespace meniscus::cli {
+namespace meniscus {
 
 /// The name that takes the fewest changes to come to, of those that take few; empty if none does. A change is a
 /// character more, less, another one, or two swapped.
 std::string near_name(std::string_view name, const std::vector<std::string>& names);
 
-/// ", did you mean NAME?" for a name that is near; else "; " and where the names are listed.
+/// ", did you mean NAME?" for a name that is near; else "; see " and where the names are listed.
 std::string suggestion(const std::string& near, const std::string& list);
 
-/// The error in the arguments, in one line. An option or a command that does not exist comes first, since other errors
-/// may follow from it.
-std::string refusal(const CLI::App& app, const CLI::ParseError& error);
-
-}  // namespace meniscus::cli
+}  // namespace meniscus
