@@ -57,8 +57,9 @@ class Server:
             start_new_session=True,  # Ctrl-C is meant for this program
         )
         assert self._process.stderr is not None
-        threading.Thread(target=_read, args=(weakref.ref(self), self._process.stderr), daemon=True).start()
-        self._end = weakref.finalize(self, _end, self._process)
+        reader = threading.Thread(target=_read, args=(weakref.ref(self), self._process.stderr), daemon=True)
+        reader.start()
+        self._end = weakref.finalize(self, _end, self._process, reader)
         if not self._told.wait(_PATIENCE) or not self.viewer:
             self.close()
             said = next((line for line in reversed(self.log) if line), "it has said nothing")
@@ -112,15 +113,16 @@ def _program(given: Optional[Union[str, os.PathLike[str]]]) -> str:
 
 def _read(server: weakref.ref[Server], lines: IO[str]) -> None:
     """The reader keeps the server alive for no longer than a line takes."""
-    for line in lines:
-        if (one := server()) is not None:
-            one._take(line)
-        del one
+    with lines:
+        for line in lines:
+            if (one := server()) is not None:
+                one._take(line)
+            del one
     if (one := server()) is not None:
         one._told.set()
 
 
-def _end(process: subprocess.Popen[str]) -> None:
+def _end(process: subprocess.Popen[str], reader: threading.Thread) -> None:
     if process.stdin is not None:
         process.stdin.close()
     try:
@@ -128,3 +130,5 @@ def _end(process: subprocess.Popen[str]) -> None:
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGKILL)
         process.wait()
+    if reader is not threading.current_thread():  # which may be the last that refers to the server
+        reader.join()

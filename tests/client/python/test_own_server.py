@@ -110,6 +110,23 @@ def test_a_server_ends_with_its_program_however_that_ends(end):
     assert re.fullmatch(r"127\.0\.0\.1:\d+\n", out) and ends(out.strip())
 
 
+def test_a_server_leaves_no_process_and_no_file_open():
+    code, out, err = run_script(
+        """
+        import os, sys, meniscus
+        with meniscus.Server(program=sys.argv[1]) as client:
+            assert client.serving()
+        try:
+            os.waitpid(-1, os.WNOHANG)
+        except ChildProcessError:
+            print("alone")
+        """,
+        meniscusd.program,
+        flags=("-W", "error"),
+    )
+    assert (code, out, err) == (0, "alone\n", "")
+
+
 def test_a_server_that_nobody_refers_to_any_more_ends():
     server = meniscus.Server(program=meniscusd.program)
     address = server.address
