@@ -173,8 +173,8 @@ class _Copy:
         return _DLPACK_CPU[0], 0
 
 
-#: How libraries copy an array of theirs to the CPU: CuPy, PyTorch, Numba, Warp.
-_COPIES = ("get", "cpu", "copy_to_host", "numpy")
+#: How libraries copy an array of theirs to the CPU: cuDF, Numba, CuPy, PyTorch, Warp, JAX.
+_COPIES = ("to_numpy", "copy_to_host", "get", "cpu", "numpy", "__array__")
 
 
 def on_host(value: Any, what: str) -> Any:
@@ -190,7 +190,10 @@ def on_host(value: Any, what: str) -> Any:
         pass
     for name in _COPIES:
         if callable(copy := getattr(value, name, None)):
-            return np.asarray(copy())
+            try:
+                return np.asarray(copy())
+            except TypeError:
+                continue  # CuPy's __array__ refuses; another library's get() is of something else
     kind = type(value).__name__
     raise InvalidInput(f"{what} lies on a GPU, and {kind} offers no copy in memory of the CPU: make one")
 

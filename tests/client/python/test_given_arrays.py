@@ -72,6 +72,21 @@ class OfPyTorch(OnDevice):
         return self._array
 
 
+class OfCuDF(OnDevice):
+    def get(self, key):
+        raise AssertionError("this is the value of a key")
+
+    def to_numpy(self):
+        self.asked.append("to_numpy")
+        return self._array
+
+
+class OfJAX(OnDevice):
+    def __array__(self, *_, **__):
+        self.asked.append("__array__")
+        return self._array
+
+
 class WithDLPack(OnDevice):
     def __dlpack_device__(self):
         return 2, 0  # CUDA
@@ -96,6 +111,8 @@ KINDS = {
     OfNumba: ["copy_to_host"],
     OfWarp: ["numpy"],
     OfPyTorch: ["detach", "cpu"],
+    OfCuDF: ["to_numpy"],
+    OfJAX: ["__array__"],
     WithDLPack: ["dlpack"],
     WithOldDLPack: ["get"],
 }

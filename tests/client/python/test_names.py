@@ -101,6 +101,25 @@ def test_an_array_is_found_by_its_name_and_by_that_of_its_file(label, positions,
         assert attributes[label] is attributes[name] and label in attributes and attributes.get(label) is not None
 
 
+def test_labels_come_from_files_of_other_programs(tmp_path):
+    (tmp_path / "p.vtp").write_text(
+        """<VTKFile type="PolyData" version="1.0"><PolyData><Piece NumberOfPoints="1" NumberOfVerts="0">
+        <PointData><DataArray type="Float32" Name="Temperature (K)" format="ascii">7</DataArray></PointData>
+        <Points><DataArray type="Float32" NumberOfComponents="3" format="ascii">1 2 3</DataArray></Points>
+        </Piece></PolyData></VTKFile>"""
+    )
+    (tmp_path / "p.ply").write_text(
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float T\nproperty float Vorticity_x\nproperty float Vorticity_y\nproperty float Vorticity_z\n"
+        "end_header\n1 2 3 7 4 5 6\n"
+    )
+    particles = meniscus.read_particles(tmp_path / "p.vtp")
+    assert particles.labels == {"temperature__k_": "Temperature (K)"} and particles.attributes["Temperature (K)"] == 7
+    particles = meniscus.read_particles(tmp_path / "p.ply")
+    assert particles.labels == {"t": "T"} and particles.attributes["T"] == 7
+    assert particles.attributes["Vorticity"].tolist() == [[4, 5, 6]], "of parts, the whole has no label of its own"
+
+
 def test_attributes_are_asked_for_by_the_name_of_their_file(session, positions):
     reconstructor = meniscus.Reconstructor(particle_radius, attributes="Temperature (K)")
     assert reconstructor.settings["attributes"] == ["temperature__k_"]

@@ -49,4 +49,6 @@ def test_a_path_with_the_name_of_a_flag_stays_what_it_is():
 def test_an_id_that_is_none_is_told_without_the_wire(client):
     with pytest.raises(meniscus.InvalidInput) as raised:
         client.session(0.05, id="dam")
-    assert str(raised.value).startswith('the session\'s id is "dam"; it must be a UUID') and "x-session-id" not in str(raised.value)
+    assert str(raised.value).startswith('the session\'s id is "dam"; it must be a UUID') and "x-session-id" not in str(
+        raised.value
+    )
