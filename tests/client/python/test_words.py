@@ -8,15 +8,15 @@ from support import meniscusd
 @pytest.mark.parametrize(
     "given, words",
     [
-        ({"smoothing_length": 2}, 'use smoothness, or take field="color"'),
-        ({"field": "color", "smoothness": 6}, 'use smoothing_length, or take field="smooth"'),
-        ({"field": "color", "spray": "points"}, 'take spray="keep" or field="smooth"'),
+        ({"smoothing_length": 2}, ["smoothness", 'field="color"']),
+        ({"field": "color", "smoothness": 6}, ["smoothing_length", 'field="smooth"']),
+        ({"field": "color", "spray": "points"}, ['spray="keep"', 'field="smooth"']),
     ],
 )
 def test_settings_that_exclude_each_other_are_told_as_keywords(given, words):
     with pytest.raises(meniscus.InvalidInput) as raised:
         meniscus.Reconstructor(0.05, **given)
-    assert words in str(raised.value) and "--" not in str(raised.value)
+    assert all(word in str(raised.value) for word in words) and "--" not in str(raised.value)
 
 
 @pytest.mark.parametrize("given, words", [(-1, "a whole number, 0 or more"), (10**6, "at most 1024")])
@@ -49,6 +49,5 @@ def test_a_path_with_the_name_of_a_flag_stays_what_it_is():
 def test_an_id_that_is_none_is_told_without_the_wire(client):
     with pytest.raises(meniscus.InvalidInput) as raised:
         client.session(0.05, id="dam")
-    assert str(raised.value).startswith('the session\'s id is "dam"; it must be a UUID') and "x-session-id" not in str(
-        raised.value
-    )
+    assert all(word in str(raised.value) for word in ("id", "dam", "UUID"))
+    assert "x-session" not in str(raised.value)

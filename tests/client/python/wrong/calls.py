@@ -57,7 +57,7 @@ CONNECTIONS = {
 }
 
 SESSIONS = {
-    "id no UUID": ({"id": "dam"}, Bad, "^the session's id is .dam.", "UUID"),
+    "id no UUID": ({"id": "dam"}, Bad, "dam", "UUID"),
     "id empty": ({"id": ""}, (), "."),
     "id number": ({"id": 5}, Bad, "5"),
     "id object": ({"id": object()}, Bad, "id"),
