@@ -1,17 +1,34 @@
 // The rows of described records (core/include/meniscus/described.hpp), a line each, of cells between tabs: what
 // deploy/document-rows writes the documents from.
+#include <array>
+#include <chrono>
 #include <iostream>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
+#include "meniscus/backend_options.hpp"
 #include "meniscus/client/frame_statistics.hpp"
+#include "meniscus/client/particle_watcher.hpp"
+#include "meniscus/client/session.hpp"
+#include "meniscus/client/stream.hpp"
+#include "meniscus/client/watcher.hpp"
 #include "meniscus/settings.hpp"
 #include "meniscus/statistics.hpp"
 
 namespace meniscus {
 namespace {
+
+/// The choice that is no setting, but a name for several.
+struct NamedSettings {
+    Preset preset = Preset::smooth;
+
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        visit("preset", &NamedSettings::preset, {.help = "settings by name"});
+    }
+};
 
 /// In Python's words.
 template <class Value>
@@ -21,6 +38,9 @@ std::string_view kind_of(const Facts& facts) {
     if constexpr (std::is_floating_point_v<T>) return "float";
     if constexpr (std::is_integral_v<T>) return "int";
     if constexpr (is_list<T>) return "list";
+    if constexpr (std::is_same_v<T, std::chrono::milliseconds>) return "float";  // seconds
+    if constexpr (std::is_same_v<T, Box>) return "box";
+    if constexpr (std::is_same_v<T, std::array<double, 3>>) return "point";
     if (facts.entries.empty()) return "str";
     if constexpr (requires(T value) { value[0] + 0.5; })
         return std::is_floating_point_v<std::remove_cvref_t<decltype(T{}[0])>> ? "float by name" : "int by name";
@@ -33,6 +53,8 @@ std::string text_of(const Value& value) {
     out << std::boolalpha;
     if constexpr (std::is_enum_v<Value> || is_variant<Value>)
         out << name_of(value);
+    else if constexpr (std::is_same_v<Value, std::chrono::milliseconds>)
+        out << std::chrono::duration<double>(value).count();
     else if constexpr (requires { out << value; })
         out << value;
     return out.str();
@@ -55,9 +77,10 @@ std::string default_of(const Row& row, const Record& record) {
 /// Those of a choice, with spaces between them.
 template <class Value>
 std::string choices_of() {
+    using T = Held<Value>;
     std::string out;
-    if constexpr (std::is_enum_v<Value> || is_variant<Value>)
-        for (const std::string_view name : names<Value>) out += (out.empty() ? "" : " ") + std::string(name);
+    if constexpr (std::is_enum_v<T> || is_variant<T>)
+        for (const std::string_view name : names<T>) out += (out.empty() ? "" : " ") + std::string(name);
     return out;
 }
 
@@ -65,6 +88,7 @@ template <class Record>
 void print_rows(std::string_view record_name) {
     const Record record;
     for_each_row<Record>([&]<class Row>(const Row& row) {
+        if constexpr (Described<typename Row::Type>) return print_rows<typename Row::Type>(record_name);
         const Facts& facts = row.facts;
         std::cout << record_name << '\t' << row.name << '\t' << option_name(row) << '\t'
                   << (facts.letter == '\0' ? "" : std::string(1, facts.letter)) << '\t' << facts.argument << '\t'
@@ -79,6 +103,13 @@ void print_rows(std::string_view record_name) {
 
 int main() {
     meniscus::print_rows<meniscus::Settings>("settings");
+    meniscus::print_rows<meniscus::NamedSettings>("preset");
     meniscus::print_rows<meniscus::Statistics>("statistics");
     meniscus::print_rows<meniscus::client::FrameStatistics>("frame statistics");
+    meniscus::print_rows<meniscus::BackendOptions>("backend options");
+    meniscus::print_rows<meniscus::client::OpenOptions>("open options");
+    meniscus::print_rows<meniscus::client::StreamOptions>("stream options");
+    meniscus::print_rows<meniscus::client::WatchOptions>("watch options");
+    meniscus::print_rows<meniscus::client::ParticleWatchOptions>("particle watch options");
+    meniscus::print_rows<meniscus::client::SnapshotOptions>("snapshot options");
 }

@@ -22,6 +22,13 @@ from setuptools.command.build_ext import build_ext
 REPOSITORY = Path(__file__).resolve().parents[2]
 
 
+def require_tools() -> None:
+    """Before anything is built: what is missing at the end of it costs minutes."""
+    missing = [tool for tool in ("patchelf", "strip") if shutil.which(tool) is None]
+    if missing:
+        raise SystemExit(f"setup.py: the wheel needs {' and '.join(missing)}: run deploy/install-packages wheel")
+
+
 def built_by_cmake() -> Path:
     """A build folder with the extension for this Python."""
     if given := os.environ.get("BUILT_MENISCUS"):
@@ -80,6 +87,7 @@ def patch(file: Path, names: dict[str, str], folder: str, *more: str) -> None:
 
 class BuildByCMake(build_ext):
     def build_extension(self, ext: Extension) -> None:
+        require_tools()
         name = "_meniscus" + sysconfig.get_config_var("EXT_SUFFIX")
         build = built_by_cmake()
         built = build / "client" / "python" / "meniscus" / name

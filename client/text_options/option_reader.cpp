@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 #include "meniscus/error.hpp"
 #include "meniscus/quoted.hpp"
@@ -105,11 +107,13 @@ void OptionReader::read(std::string_view name, std::chrono::milliseconds& value)
 template <class Number>
 Number OptionReader::whole_number(std::string_view name, const std::string& text) const {
     Number value{};
-    if (!is_number(text, value))
-        refuse(quoted(name), text,
-               "a whole number, " + std::to_string(std::numeric_limits<Number>::min()) + " to " +
-                   std::to_string(std::numeric_limits<Number>::max()));
-    return value;
+    if (is_number(text, value)) return value;
+    std::int64_t negative = 0;
+    if (std::is_unsigned_v<Number> && is_number(text, negative) && negative < 0)
+        refuse(quoted(name), text, "a whole number, 0 or more");
+    refuse(quoted(name), text,
+           "a whole number, " + std::to_string(std::numeric_limits<Number>::min()) + " to " +
+               std::to_string(std::numeric_limits<Number>::max()));
 }
 template int OptionReader::whole_number(std::string_view, const std::string&) const;
 template std::uint32_t OptionReader::whole_number(std::string_view, const std::string&) const;

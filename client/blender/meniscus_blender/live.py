@@ -12,6 +12,10 @@ class SessionChoice(ValueError):
     """No session, or several, are named so. The message lists those that are there."""
 
 
+class AmbiguousChoice(SessionChoice):
+    """Several sessions are meant: no wait for another one makes that better."""
+
+
 @dataclass(frozen=True)
 class Target:
     """The session to follow, and the form of its meshes."""
@@ -58,7 +62,7 @@ def chosen(sessions, wanted):
     if not found:
         raise SessionChoice(f"there is no session '{wanted}'{listed}")
     what = f"{len(found)} sessions are named '{wanted}': give the id" if wanted else "choose a session"
-    raise SessionChoice(what + listed)
+    raise AmbiguousChoice(what + listed)
 
 
 class Follower:
@@ -80,6 +84,8 @@ class Follower:
         self._space: Optional[Space] = None
         self._watcher = None
         self._stops = False
+        self._fails = False  # with an error that no wait mends
+        self._waited = False  # in vain
         self._serial = 0
         self.space_taken = False  #: whether the object has been turned and scaled as the session says
         self._thread = threading.Thread(target=self._run, name="meniscus-live", daemon=True)
@@ -108,10 +114,21 @@ class Follower:
         return not self._thread.is_alive()
 
     def wait(self, seconds):
-        """Until there is a frame, or it has given up. Gives the newest frame, or None."""
+        """Until there is a frame, it has given up, or a wait makes nothing better. Gives the newest frame, or None.
+
+        Where a wait was in vain, the next ones are none until there is a frame.
+        """
         with self._changed:
-            self._changed.wait_for(lambda: self._newest is not None or self._stops, seconds)
+            if not self._waited:
+                self._changed.wait_for(lambda: self._newest is not None or self._stops or self._fails, seconds)
+                self._waited = True
             return self._newest
+
+    def wait_for_answer(self, seconds):
+        """Until the server has answered, or an attempt has failed. Gives the error that no wait mends, or ""."""
+        with self._changed:
+            self._changed.wait_for(lambda: self._state != State("connecting") or self._stops, seconds)
+            return self._state.text if self._fails else ""
 
     def stop(self, seconds=10.0):
         """Ends the thread; the newest frame stays."""
@@ -123,9 +140,10 @@ class Follower:
             watcher.cancel()
         self._thread.join(seconds)
 
-    def _tell(self, text, is_error=False):
+    def _tell(self, text, is_error=False, fails=False):
         with self._changed:
             self._state = State(text, is_error)
+            self._fails = fails
             self._changed.notify_all()
 
     def _run(self):
@@ -133,8 +151,9 @@ class Follower:
             try:
                 self._follow()
             except Exception as error:
-                self._tell(error_text(error), is_error=True)
-                if self._final(error):
+                is_final = self._final(error)
+                self._tell(error_text(error), is_error=True, fails=is_final or isinstance(error, AmbiguousChoice))
+                if is_final:
                     with self._changed:
                         self._stops = True
                         self._changed.notify_all()
@@ -179,6 +198,7 @@ class Follower:
             self._serial += 1
             key = f"{session_id} {frame.run_id} {frame.index} {id(self)} {self._serial}"
             self._newest = LiveFrame(key, surface, frame.index, frame.time)
+            self._waited = False
         self._tell(f"'{name}': frame {frame.index}, {surface.text()}")
 
     def _show_attempt(self, attempt, connected, reason, seconds_left):

@@ -10,6 +10,9 @@ from . import live, mesh_data, package, services, space, status
 #: Seconds that a render waits for a session's first frame.
 _FIRST_FRAME_SECONDS = 60.0
 
+#: Seconds in which a server answers: more than its client waits.
+_ANSWER_SECONDS = 15.0
+
 #: Codes of meniscus.ServerError with which another attempt gives the same answer.
 _FINAL_CODES = ("unauthenticated", "permission_denied", "unimplemented")
 
@@ -44,6 +47,15 @@ def connect(obj):
     settings.key = str(uuid.uuid4())
     services.followers[settings.key] = live.Follower(open_client, target, final=is_final)
     status.show(obj.name, "connecting")
+
+
+def refusal(obj):
+    """Waits for the server's first answer. Gives the error that no wait mends, such as several sessions of which none
+    is chosen, and follows no longer then; "" where there is none."""
+    text = follower_of(obj).wait_for_answer(_ANSWER_SECONDS)
+    if text:
+        services.followers.pop(obj.meniscus.live.key).stop(seconds=0.0)
+    return text
 
 
 def client_opener(settings):

@@ -9,6 +9,7 @@ from .worker import error_text
 
 
 def _not_connected(operator, obj, error):
+    """error: or its text."""
     text = error_text(error)
     status.show(obj.name, text, "ERROR")
     return cancelled(operator, text)
@@ -42,6 +43,8 @@ class Connect(bpy.types.Operator):
             live_objects.connect(obj)
         except (package.PackageMissing, OSError) as error:
             return _not_connected(self, obj, error)
+        if bpy.app.background and (text := live_objects.refusal(obj)):
+            return _not_connected(self, obj, text)
         return {"FINISHED"}
 
 

@@ -88,9 +88,10 @@ class ImportSequence(bpy.types.Operator, ImportHelper):
         name = os.path.basename(pattern).split(".")[0].replace("{}", "").strip("_-. ") or "Particles"
         obj = new_object(context, name, "SEQUENCE")
         settings = obj.meniscus.sequence
+        gaps = ""
         with quiet():
             if found:
-                sequence_objects.set_files(settings, found)
+                gaps = sequence_objects.set_files(settings, found)
                 settings.start = context.scene.frame_start
             settings.particle_radius = self.particle_radius
             settings.viewport.cell_size = 1.0
@@ -98,7 +99,10 @@ class ImportSequence(bpy.types.Operator, ImportHelper):
         obj.rotation_euler = space.rotation(self.up_axis)
         obj.scale = (self.scale,) * 3
         if found and self.set_frame_range:
-            context.scene.frame_end = max(context.scene.frame_start, sequence_objects.timing(settings).end())
+            settings.scene_end = context.scene.frame_end
+            sequence_objects.follow_end(settings, context.scene)
+        if gaps:
+            self.report({"WARNING"}, gaps)
         sequence_objects.update(obj, context.scene.frame_current, waits=bpy.app.background)
         shown = status.of(obj.name)
         if shown is not None and shown.kind == "ERROR":
@@ -125,9 +129,10 @@ class RescanFiles(bpy.types.Operator):
             return cancelled(self, error)
         if not found:
             return cancelled(self, f"no file matches {settings.pattern}")
-        sequence_objects.set_files(settings, found)
+        gaps = sequence_objects.set_files(settings, found)
+        sequence_objects.follow_end(settings, context.scene)
         sequence_objects.update(context.object, context.scene.frame_current, waits=bpy.app.background)
-        self.report({"INFO"}, f"{len(found)} files")
+        self.report({"WARNING" if gaps else "INFO"}, f"{len(found)} files" + (f"; {gaps}" if gaps else ""))
         return {"FINISHED"}
 
 

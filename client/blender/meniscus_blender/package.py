@@ -59,12 +59,20 @@ def platform_text():
     return f"Python {platform.python_version()}, {platform.system()} {platform.machine()}{beside}"
 
 
+def uses_debians_python():
+    """Whether this Blender imports what Debian's packages install."""
+    return os.path.exists("/etc/debian_version") and sys.prefix == "/usr"
+
+
 def _missing_text(error):
     if isinstance(error, ModuleNotFoundError) and error.name == "meniscus":
         reason = "none is installed"
     else:
         reason = _unfit_library() or f"{type(error).__name__}: {error}"
-    return f"the Python package meniscus is missing: this Blender ({platform_text()}) needs {wheel_name()}; {reason}"
+    needed = f"needs {wheel_name()}"
+    if uses_debians_python():
+        needed = f"needs Debian's package of it (apt install ./python3-meniscus_*.deb), or {wheel_name()}"
+    return f"the Python package meniscus is missing: this Blender ({platform_text()}) {needed}; {reason}"
 
 
 def _unfit_library():

@@ -20,6 +20,12 @@ def _changed(self, context):
         sequence_objects.update(obj, context.scene.frame_current)
 
 
+def _range_changed(self, context):
+    if not is_quiet():
+        sequence_objects.follow_end(self, context.scene)
+    _changed(self, context)
+
+
 def _normals_changed(self, context):
     _changed(self, context)
     if not bpy.app.background and not is_quiet():
@@ -64,13 +70,17 @@ class MeniscusSequence(bpy.types.PropertyGroup):
         subtype="FILE_PATH",
         update=_changed,
     )
-    first: IntProperty(name="First File", description="Number of the first file", min=0, update=_changed)
-    last: IntProperty(name="Last File", description="Number of the last file", min=0, update=_changed)
+    scene_end: IntProperty(options={"HIDDEN"})  # that the scene got from this sequence; 0: none
+    first: IntProperty(name="First File", description="Number of the first file", min=0, update=_range_changed)
+    last: IntProperty(name="Last File", description="Number of the last file", min=0, update=_range_changed)
     stride: IntProperty(
-        name="Stride", description="From one file's number to the next", default=1, min=1, update=_changed
+        name="Stride", description="From one file's number to the next", default=1, min=1, update=_range_changed
     )
     start: IntProperty(
-        name="Start Frame", description="Frame of the scene that shows the first file", default=1, update=_changed
+        name="Start Frame",
+        description="Frame of the scene that shows the first file",
+        default=1,
+        update=_range_changed,
     )
     speed: FloatProperty(
         name="Files per Frame",
@@ -78,7 +88,7 @@ class MeniscusSequence(bpy.types.PropertyGroup):
         default=1.0,
         min=0.001,
         soft_max=10.0,
-        update=_changed,
+        update=_range_changed,
     )
     outside: EnumProperty(
         name="Outside",

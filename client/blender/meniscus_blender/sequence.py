@@ -10,6 +10,10 @@ class SequenceError(ValueError):
     """A frame has no file, or a pattern names none. The message names the file."""
 
 
+class MissingFile(SequenceError):
+    """A sequence has no file of this number."""
+
+
 @dataclass(frozen=True)
 class Timing:
     """The number of the file that a frame of Blender's shows."""
@@ -76,7 +80,7 @@ def path_of(pattern, number):
         return pattern
     found = files(pattern)
     if number not in found:
-        raise SequenceError(f"{pattern}: there is no file with the number {number}" + _range_text(found))
+        raise MissingFile(f"{pattern}: there is no file with the number {number}" + _range_text(found))
     return found[number]
 
 
@@ -87,6 +91,21 @@ def span(numbers):
     for earlier, later in zip(ordered, ordered[1:]):
         stride = gcd(stride, later - earlier)
     return ordered[0], ordered[-1], max(stride, 1)
+
+
+def gaps_text(numbers):
+    """Which numbers of a sequence have no file, in a sentence; "" where each has one."""
+    first, last, stride = span(numbers)
+    missing = sorted(set(range(first, last + 1, stride)) - set(numbers))
+    if not missing:
+        return ""
+    listed = ", ".join(map(str, missing[:_MOST_LISTED])) + (", ..." if len(missing) > _MOST_LISTED else "")
+    every = "" if stride == 1 else f" by {stride}"
+    return f"{len(missing)} of the numbers {first} to {last}{every} have no file: {listed}"
+
+
+#: Numbers that a sentence has.
+_MOST_LISTED = 8
 
 
 def _range_text(found):

@@ -7,7 +7,7 @@ import bpy
 from . import mesh_data, services, status
 from .quiet import quiet
 from .reconstruction import Request
-from .sequence import Timing, span
+from .sequence import MissingFile, Timing, gaps_text, span
 from .worker import error_text
 
 
@@ -74,6 +74,10 @@ def update(obj, frame, quality="viewport", waits=False):
     elif waits:
         try:
             made = services.reconstruction.make(request)
+        except MissingFile as error:
+            # Of a film with many gaps the first one is told.
+            _fail(obj, error_text(error), aloud=obj.name not in _gaps_told)
+            _gaps_told.add(obj.name)
         except Exception as error:
             _fail(obj, error_text(error), aloud=True)
         else:
@@ -107,9 +111,25 @@ def fill(obj, scene, quality):
 
 
 def set_files(settings, numbers):
-    """Sets the range of a pattern's files."""
+    """Sets the range of a pattern's files. Gives which numbers in it have none, in a sentence, or ""."""
     with quiet():
         settings.first, settings.last, settings.stride = span(numbers)
+    gaps = gaps_text(numbers)
+    (_gaps_told.add if gaps else _gaps_told.discard)(settings.id_data.name)
+    return gaps
+
+
+def follow_end(settings, scene):
+    """Lets the scene end with the sequence, unless its end was set to another frame since."""
+    end = max(scene.frame_start, timing(settings).end())
+    if settings.scene_end == scene.frame_end:
+        with quiet():
+            settings.scene_end = end
+        scene.frame_end = end
+
+
+#: Names of objects of which it was told that files are missing.
+_gaps_told = set()
 
 
 def _show(obj, made, aloud=False):

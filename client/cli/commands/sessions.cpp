@@ -12,7 +12,7 @@
 #include "cli/print/session_table.hpp"
 #include "cli/print/settings_json.hpp"
 #include "cli/print/times.hpp"
-#include "cli/surfaces/session_lookup.hpp"
+#include "meniscus/client/session_lookup.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {

@@ -19,9 +19,9 @@
 #include "cli/print/listener.hpp"
 #include "cli/print/warnings.hpp"
 #include "cli/surfaces/mesh_output.hpp"
-#include "cli/surfaces/session_lookup.hpp"
 #include "formats/bytes/atomic_file.hpp"
 #include "formats/meshes/point_writer.hpp"
+#include "meniscus/client/session_lookup.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {

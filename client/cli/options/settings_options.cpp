@@ -8,6 +8,7 @@
 
 #include "cli/options/named_option.hpp"
 #include "cli/options/option_group.hpp"
+#include "formats/containers/array_collector.hpp"
 #include "meniscus/error.hpp"
 
 namespace meniscus::cli {
@@ -21,6 +22,12 @@ std::string help_of(std::string_view setting) {
         if (row.name == setting) help = row.facts.help;
     });
     return help;
+}
+
+/// The name that a file has for an array stands for the array's, too.
+std::string name_of_array(const std::string& name) {
+    const std::string known = formats::array_name(name);
+    return known.size() == name.size() ? known : name;  // one that is empty or too long is refused as it is
 }
 
 }  // namespace
@@ -46,7 +53,8 @@ Settings SettingsOptions::build(double particle_radius) const {
     out.all_attributes = std::ranges::find(attributes_, every_attribute) != attributes_.end();
     if (out.all_attributes && attributes_.size() > 1)
         throw InvalidInput("--attribute all takes every array: leave the other names out");
-    if (!out.all_attributes) out.attributes = attributes_;
+    if (!out.all_attributes)
+        for (const std::string& name : attributes_) out.attributes.push_back(name_of_array(name));
     validate(out);
     return out;
 }

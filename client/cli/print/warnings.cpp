@@ -5,6 +5,8 @@
 #include <iostream>
 #include <sstream>
 
+#include "formats/particles/particles.hpp"
+
 namespace meniscus::cli {
 
 void add_strict_option(CLI::App& command, bool& strict) {
@@ -12,9 +14,7 @@ void add_strict_option(CLI::App& command, bool& strict) {
 }
 
 FileWarning faces_as_particles(std::size_t faces, std::size_t particles) {
-    return {"faces_as_particles", static_cast<double>(faces), 0.0,
-            "the file has " + std::to_string(faces) + " faces, so that it is a mesh: its " + std::to_string(particles) +
-                " corners are taken as particles"};
+    return {"faces_as_particles", static_cast<double>(faces), 0.0, formats::corners_as_particles(faces, particles)};
 }
 
 FileWarning no_particles(std::size_t in_file) {

@@ -131,6 +131,7 @@ std::string array_name(std::string_view name) {
 
 ArrayBuilder::ArrayBuilder(std::string_view name, ScalarType type, std::size_t components, std::size_t count)
     : values_{array_name(name), element_type_of(type), components, {}}, type_(type) {
+    if (values_.name != name) values_.label = name;
     if (!can_be_attribute(values_.type, components))
         reason_ = in_components(components) + " of " + std::string(meniscus::name_of(values_.type));
     else

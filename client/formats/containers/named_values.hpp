@@ -19,6 +19,7 @@ struct NamedValues {
     ElementType type = ElementType::float32;
     std::size_t components = 1;   ///< numbers per particle or vertex
     std::vector<std::byte> data;  ///< in the machine's byte order, one particle after the other
+    std::string label{};          ///< what its file calls it, where `name` is made of that; empty: as `name`
 
     std::size_t element_bytes() const { return size_of(type) * components; }
     std::size_t count() const { return data.size() / element_bytes(); }

@@ -11,6 +11,11 @@
 
 namespace meniscus::formats {
 
+std::string corners_as_particles(std::size_t faces, std::size_t particles) {
+    return "the file has " + std::to_string(faces) + " faces, so that it is a mesh: its " + std::to_string(particles) +
+           " corners are taken as particles";
+}
+
 void require_arrays(const std::string& file, const Particles& particles, std::span<const std::string> names) {
     for (const std::string& name : names)
         if (std::none_of(particles.arrays.begin(), particles.arrays.end(),

@@ -43,6 +43,9 @@ struct Particles {
     }
 };
 
+/// The warning of a file with faces.
+std::string corners_as_particles(std::size_t faces, std::size_t particles);
+
 /// Throws InvalidInput, naming the arrays that the file has, unless these are among them. file: for messages.
 void require_arrays(const std::string& file, const Particles& particles, std::span<const std::string> names);
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace meniscus::formats {
@@ -15,6 +16,8 @@ struct Image {
     std::vector<std::uint8_t> pixels;
 };
 
+/// The content of the file.
+std::string png_bytes(const Image& image);
 /// Atomic. Throws InvalidInput if the path cannot be written.
 void write_png(const std::filesystem::path& path, const Image& image);
 

@@ -9,12 +9,14 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
 #include "address/default_port.hpp"
 #include "address/loopback.hpp"
 #include "connection/deadline.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::client {
 
@@ -55,9 +57,17 @@ std::shared_ptr<grpc::Channel> open_channel(const std::string& address, const Co
     return grpc::CreateCustomChannel(address, credentials(options), arguments);
 }
 
+bool is_web_address(const std::string& address) {
+    return address.starts_with("http://") || address.starts_with("https://");
+}
+
 /// Throws InvalidInput for an address that is none, or that looks like one with a port.
 std::string checked_address(const std::string& address) {
     if (address.empty()) throw InvalidInput("the server's address is empty: give HOST, HOST:PORT or unix:PATH");
+    if (is_web_address(address))
+        throw InvalidInput("the server's address " + quoted(address) +
+                           " is one of the web, as its viewer has: give HOST:PORT alone; the server listens at port " +
+                           std::string(address::default_port) + " unless it was told otherwise");
     if (address::is_bare_ipv6(address))
         throw InvalidInput("the server's address " + address + " is IPv6 without brackets: write [" + address +
                            "], or [" + address + "]:" + std::string(address::default_port));
@@ -91,12 +101,23 @@ bool connect(grpc::Channel& channel, const ConnectionOptions& options) {
     }
 }
 
-/// Why there is no connection, in gRPC's words.
+/// gRPC's words, where they tell of the machinery and not of the mistake.
+std::string in_plain_words(const std::string& reason) {
+    const auto has = [&reason](std::string_view words) { return reason.find(words) != std::string::npos; };
+    if (has("http1.x server"))
+        return "what listens there speaks HTTP/1, as the port of a viewer or a proxy does: the server itself listens "
+               "at port " +
+               std::string(address::default_port) + " unless it was told otherwise";
+    if (has("C-ares") || has("DNS resolution")) return "no machine of this name is known";
+    return reason;
+}
+
+/// Why there is no connection.
 std::string connection_failure(v1::ServerService::Stub& server) {
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() + std::chrono::milliseconds(200));
     v1::GetServerInfoResponse response;
-    return server.GetServerInfo(&context, {}, &response).error_message();
+    return in_plain_words(server.GetServerInfo(&context, {}, &response).error_message());
 }
 
 /// The token, if it may be sent.

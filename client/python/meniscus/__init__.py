@@ -42,9 +42,11 @@ from .information import RecordingInfo, ServerInfo, SessionInfo
 from .mesh import DeviceArray, DeviceMesh, Mesh
 from .reconstructor import Reconstructor, reconstruct
 from .recording_file import RecordingFile, read_bricks
+from .server import Server
 from .session import Session
 from .statistics import FrameWarning, Statistics
 from .stream import Stream
+from .view import View, show
 from .watcher import ParticleWatcher, RecordingReader, Watcher
 
 __all__ = [
@@ -67,6 +69,7 @@ __all__ = [
     "RecordingFile",
     "RecordingInfo",
     "RecordingReader",
+    "Server",
     "ServerError",
     "ServerInfo",
     "Session",
@@ -74,6 +77,7 @@ __all__ = [
     "Statistics",
     "Stream",
     "SurfaceWarning",
+    "View",
     "Watcher",
     "__version__",
     "mesh_extensions",
@@ -81,4 +85,5 @@ __all__ = [
     "read_bricks",
     "read_particles",
     "reconstruct",
+    "show",
 ]

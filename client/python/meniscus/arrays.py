@@ -7,6 +7,7 @@ from typing import Any, Mapping, NamedTuple, Optional
 import numpy as np
 
 from .errors import InvalidInput
+from .named import array_name
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
@@ -28,15 +29,26 @@ def frame(positions: Any, levels: Any = None, attributes: Optional[Mapping[str, 
     )
 
 
+def frame_on_host(positions: Any, levels: Any = None, attributes: Optional[Mapping[str, Any]] = None) -> Frame:
+    """Likewise; arrays that lie on a GPU are copied down."""
+    return frame(
+        on_host(positions, "positions"),
+        None if levels is None else on_host(levels, "levels"),
+        {name: on_host(value, f"the attribute '{name}'") for name, value in _by_name(attributes)},
+    )
+
+
 def is_on_gpu(value: Any) -> bool:
     """Whether the object lies in the memory of a GPU, as CuPy, Warp, Numba and PyTorch say."""
     return not isinstance(value, np.ndarray) and hasattr(value, "__cuda_array_interface__")
 
 
 def _name(name: Any) -> str:
-    if not isinstance(name, str) or not name.isascii() or not name.isprintable() or len(name) > 64:
-        raise InvalidInput(f"the name of an attribute is {repr(name)[:72]}, must be 1 to 64 of a-z, 0-9 and _")
-    return name
+    if isinstance(name, str) and 0 < len(name) <= 64 and name.isprintable():
+        if (wanted := array_name(name)) == name:
+            return name
+        raise InvalidInput(f"the name of an attribute is {name!r}, must be of a-z, 0-9 and _, such as {wanted!r}")
+    raise InvalidInput(f"the name of an attribute is {repr(name)[:72]}, must be 1 to 64 of a-z, 0-9 and _")
 
 
 def _as_array(value: Any, what: str) -> Array:
@@ -44,6 +56,8 @@ def _as_array(value: Any, what: str) -> Array:
         raise InvalidInput(
             f"{what} lies on a GPU: copy it to the CPU first, or use a Reconstructor with backend='cuda'"
         )
+    if isinstance(value, np.ma.MaskedArray):
+        value = _without_mask(value, what)
     if not hasattr(value, "__array__") and hasattr(value, "__dlpack__"):
         if value.__dlpack_device__()[0] not in _DLPACK_CPU:
             raise InvalidInput(f"{what} does not lie in memory of the CPU: copy it there first")
@@ -56,6 +70,17 @@ def _as_array(value: Any, what: str) -> Array:
     if array.dtype.kind not in "fiub":
         raise InvalidInput(f"{what} is of type {array.dtype}, must be of real numbers")
     return array
+
+
+def _without_mask(value: Any, what: str) -> Any:
+    """Raises InvalidInput where anything is masked: a particle has all of its numbers."""
+    masked = int(np.count_nonzero(value.mask))
+    if masked > 0:
+        raise InvalidInput(
+            f"{what} has {masked} masked values, must have none: leave those particles out of all arrays, "
+            "as in positions[~numpy.ma.getmaskarray(positions).any(axis=1)].data"
+        )
+    return value.data
 
 
 def _positions(value: Any) -> Array:
@@ -133,3 +158,47 @@ def _by_name(attributes: Optional[Mapping[str, Any]]) -> list[tuple[str, Any]]:
         given = type(attributes).__name__
         raise InvalidInput(f"attributes is {given}, must be arrays by name, as in {{'velocity': v}}")
     return [(_name(name), value) for name, value in (attributes or {}).items()]
+
+
+class _Copy:
+    """A copy that another library has made in memory of the CPU, for numpy."""
+
+    def __init__(self, capsule: Any) -> None:
+        self._capsule = capsule
+
+    def __dlpack__(self, **_: Any) -> Any:
+        return self._capsule
+
+    def __dlpack_device__(self) -> tuple[int, int]:
+        return _DLPACK_CPU[0], 0
+
+
+#: How libraries copy an array of theirs to the CPU: cuDF, Numba, CuPy, PyTorch, Warp, JAX.
+_COPIES = ("to_numpy", "copy_to_host", "get", "cpu", "numpy", "__array__")
+
+
+def on_host(value: Any, what: str) -> Any:
+    """The value, copied down by its library where it lies on a GPU. Raises InvalidInput where it cannot be."""
+    if not is_on_gpu(value) and not _is_elsewhere(value):
+        return value
+    if hasattr(value, "detach"):  # from PyTorch's gradients
+        value = value.detach()
+    try:
+        # Since 2023 the protocol can be asked for a copy on another device.
+        return np.from_dlpack(_Copy(value.__dlpack__(dl_device=(_DLPACK_CPU[0], 0), copy=True)))
+    except (AttributeError, TypeError, BufferError, RuntimeError, NotImplementedError):
+        pass
+    for name in _COPIES:
+        if callable(copy := getattr(value, name, None)):
+            try:
+                return np.asarray(copy())
+            except TypeError:
+                continue  # CuPy's __array__ refuses; another library's get() is of something else
+    kind = type(value).__name__
+    raise InvalidInput(f"{what} lies on a GPU, and {kind} offers no copy in memory of the CPU: make one")
+
+
+def _is_elsewhere(value: Any) -> bool:
+    """Whether it says by DLPack that it does not lie in memory of the CPU."""
+    is_other = not isinstance(value, np.ndarray) and hasattr(value, "__dlpack_device__")
+    return is_other and value.__dlpack_device__()[0] not in _DLPACK_CPU

@@ -8,14 +8,20 @@ from typing import Any, AsyncIterator, Optional, Sequence, Union
 
 from . import _meniscus
 from .background import in_background
+from .errors import InvalidInput
 from .frame import Frame, ParticleFrame
 from .information import RecordingInfo, ServerInfo, SessionInfo
+from .opening import open_particle_watcher, open_stream, open_watcher
 from .options import AttributeRequest, attribute_text, names_text, option_texts
-from .session import Session, open_particle_watcher, open_stream, open_watcher, session_info
+from .session import Session, session_info
 from .stream import Stream
+from .types import Real, Whole
 from .watcher import ParticleWatcher, RecordingReader, Watcher
 
 Path = Union[str, "os.PathLike[str]"]
+#: A session by its name, its id, or an object that stands for it.
+AnySession = Union[str, SessionInfo, Session]
+AnyRecording = Union[str, RecordingInfo, SessionInfo, Session]
 
 
 class Client:
@@ -40,10 +46,11 @@ class Client:
         tls_server_name: Optional[str] = None,
         token: Optional[str] = None,
         insecure: bool = False,
-        timeout: float = 10.0,
-        wait: float = 0.0,
+        timeout: Real = 10.0,
+        wait: Real = 0.0,
     ) -> None:
         self.address = address
+        self.viewer = ""  #: the page of the server's viewer; "": not known
         options = {
             "tls_ca": tls_ca,
             "tls_cert": tls_cert,
@@ -54,7 +61,7 @@ class Client:
             "timeout": timeout,
             "wait": wait,
         }
-        self._raw = _meniscus.Client(address, option_texts(options))
+        self._raw = _meniscus.connect(address, option_texts(options))
 
     def info(self) -> ServerInfo:
         """The server's version, backend and limits."""
@@ -65,7 +72,7 @@ class Client:
         return self._raw.serving()
 
     def session(
-        self, particle_radius: float, *, attributes: Union[str, Sequence[str]] = "all", **options: Any
+        self, particle_radius: Real, *, attributes: Union[str, Sequence[str]] = "all", **options: Any
     ) -> Session:
         """Opens a session that ends with the object returned, unless it was there before.
 
@@ -78,21 +85,22 @@ class Client:
         if "id" in texts:
             texts["session"] = texts.pop("id")
         texts["attribute"] = names_text(attributes)
-        return Session(self._raw.open_session(texts))
+        return Session(self._raw.open_session(texts), self.viewer)
 
     def sessions(self) -> list[SessionInfo]:
         """The server's sessions that this client may see."""
         return [session_info(fields) for fields in self._raw.sessions()]
 
-    def session_info(self, session_id: str) -> SessionInfo:
-        """Raises ServerError (not_found) if there is none."""
-        return session_info(self._raw.session_info(session_id))
+    def session_info(self, session: AnySession) -> SessionInfo:
+        """A session by its name or id. Raises InvalidInput where no session has the name, or several have it, with
+        those that there are; ServerError (not_found) for an id that none has. So do the calls below."""
+        return session_info(self._raw.session_info(_id_text(session)))
 
-    def delete_session(self, session_id: str) -> None:
+    def delete_session(self, session: AnySession) -> None:
         """Ends a session, also one that another client made."""
-        self._raw.delete_session(session_id)
+        self._raw.delete_session(_id_text(session))
 
-    def stream(self, session_id: str, **options: Any) -> Stream:
+    def stream(self, session: AnySession, **options: Any) -> Stream:
         """Opens the stream of a session that is there.
 
         meshes          True: they come back; False: their figures alone
@@ -109,9 +117,9 @@ class Client:
         route_check     2: seconds between looks for the session's server behind a proxy, with ``reconnect``
         on_reconnect    called at each attempt (attempt, connected, reason, seconds left), until close()
         """
-        return open_stream(partial(self._raw.stream, session_id), **options)
+        return open_stream(partial(self._raw.stream, _id_text(session)), **options)
 
-    def watch(self, session_id: str, **options: Any) -> Watcher:
+    def watch(self, session: AnySession, **options: Any) -> Watcher:
         """Receives the meshes of somebody's session, always the newest.
 
         max_level         3: finest level of grid, 1 to 3; below 3 the surface is coarser, and as closed
@@ -125,31 +133,31 @@ class Client:
         viewpoint         None; or (x, y, z): nearest bricks are sent first
         reconnect, route_check, on_reconnect  as those of stream()
         """
-        return open_watcher(partial(self._raw.watch, session_id), **options)
+        return open_watcher(partial(self._raw.watch, _id_text(session)), **options)
 
-    def watch_particles(self, session_id: str, **options: Any) -> ParticleWatcher:
+    def watch_particles(self, session: AnySession, **options: Any) -> ParticleWatcher:
         """Receives the particles of somebody's session, always the newest. ``max_particles`` (0: all): of a frame with
         more, only every k-th is sent. ``reconnect``, ``route_check``, ``on_reconnect`` as those of stream()."""
-        return open_particle_watcher(partial(self._raw.watch_particles, session_id), **options)
+        return open_particle_watcher(partial(self._raw.watch_particles, _id_text(session)), **options)
 
-    async def awatch(self, session_id: str, **options: Any) -> AsyncIterator[Frame]:
+    async def awatch(self, session: AnySession, **options: Any) -> AsyncIterator[Frame]:
         """``async for frame in client.awatch(session_id, max_level=2)``: as watch()."""
-        with await in_background(partial(self.watch, session_id, **options)) as watcher:
+        with await in_background(partial(self.watch, session, **options)) as watcher:
             async for frame in watcher:
                 yield frame
 
-    async def awatch_particles(self, session_id: str, **options: Any) -> AsyncIterator[ParticleFrame]:
+    async def awatch_particles(self, session: AnySession, **options: Any) -> AsyncIterator[ParticleFrame]:
         """Watches as watch_particles() does, for asyncio."""
-        with await in_background(partial(self.watch_particles, session_id, **options)) as watcher:
+        with await in_background(partial(self.watch_particles, session, **options)) as watcher:
             async for frame in watcher:
                 yield frame
 
-    def snapshot(self, session_id: str, *, attributes: AttributeRequest = "all", **options: Any) -> Optional[Frame]:
+    def snapshot(self, session: AnySession, *, attributes: AttributeRequest = "all", **options: Any) -> Optional[Frame]:
         """The session's newest mesh; None if no frame has come yet. Keywords: ``max_level``, ``normal_bits``,
         ``position_bits``, ``codec``, ``attributes`` and ``attribute_bits``, as those of watch()."""
         texts = option_texts(options)
         texts["attribute"] = attribute_text(attributes)
-        raw = self._raw.snapshot(session_id, texts)
+        raw = self._raw.snapshot(_id_text(session), texts)
         return None if raw is None else Frame(raw)
 
     def recordings(self) -> list[RecordingInfo]:
@@ -157,14 +165,24 @@ class Client:
         return [RecordingInfo(**fields) for fields in self._raw.recordings()]
 
     def read_recording(
-        self, session_id: str, number: int, *, position: int = 0, count: int = 0, spray: bool = False
+        self,
+        session: AnyRecording,
+        number: Optional[Whole] = None,
+        *,
+        position: Whole = 0,
+        count: Whole = 0,
+        spray: bool = False,
     ) -> RecordingReader:
-        """Reads frames of a recording in order: ``count`` at most (0: all) from the place ``position`` on."""
-        return RecordingReader(self._raw.read_recording(session_id, number, position, count, spray))
+        """Reads frames of a recording in order: ``count`` at most (0: all) from the place ``position`` on.
 
-    def delete_recording(self, session_id: str, number: int) -> None:
+        session: a RecordingInfo, which has its number; or the name or the id of a session, with the ``number``.
+        """
+        found = _recording(session, number)
+        return RecordingReader(self._raw.read_recording(*found, position, count, spray))
+
+    def delete_recording(self, session: AnyRecording, number: Optional[Whole] = None) -> None:
         """Deletes the recording's file. Raises ServerError (failed_precondition) while it is written or read."""
-        self._raw.delete_recording(session_id, number)
+        self._raw.delete_recording(*_recording(session, number))
 
     def close(self) -> None:
         """Ends the connection; the end of a ``with`` block calls it. What was opened lives on."""
@@ -178,3 +196,17 @@ class Client:
 
     def __repr__(self) -> str:
         return f"<meniscus.Client {self.address}>"
+
+
+def _id_text(session: Any) -> str:
+    """What C++ looks up, which refuses all but texts."""
+    text: str = session.id if isinstance(session, (SessionInfo, Session)) else session
+    return text
+
+
+def _recording(session: Any, number: Any) -> tuple[str, int]:
+    if isinstance(session, RecordingInfo):
+        return session.session_id, session.number if number is None else number
+    if number is None:
+        raise InvalidInput("number is None, must be that of the recording, from 1: or give a RecordingInfo alone")
+    return _id_text(session), number

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+import re
+import warnings
+from dataclasses import dataclass, field
 from typing import Any, Mapping, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _meniscus
+from .errors import InvalidInput, SurfaceWarning
+from .named import Named
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Particles:
     """A frame that was read from a file."""
 
@@ -20,19 +24,47 @@ class Particles:
     levels: Optional[NDArray[np.uint8]]  #: (N,)
     attributes: Mapping[str, NDArray[Any]]  #: by name: the other values that the file has of each particle
     left_out: tuple[str, ...]  #: a line for each array of the file that has no place here, with the reason
+    #: By name, what the file calls an array where that is another text, as "Temperature (K)" of ``temperature__k_``.
+    #: It finds the array among the attributes, too.
+    labels: Mapping[str, str] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.positions)
+
+    def __repr__(self) -> str:
+        return f"<Particles: {', '.join([f'{len(self):,}', *self.attributes])}>"
 
 
 def read_particles(path: Union[str, os.PathLike[str]], *, max_bytes: int = 8 << 30) -> Particles:
     """Reads a frame: .vtk, .vtu, .vtp, .ply, .npy, .npz, .bgeo, .bgeo.gz, .h5, .hdf5, .h5part, .bi4, .json, .xyz.
 
     ``max_bytes`` bounds what is read, before and after it is decompressed. Raises InvalidInput, in one line with the
-    file, the place and what was expected; LimitExceeded for a larger file.
+    file, the place and what was expected; LimitExceeded for a larger file. A mesh, whose corners become particles, is
+    a SurfaceWarning.
     """
-    positions, levels, named, left_out = _meniscus.read_particles(os.fspath(path), max_bytes)
-    return Particles(positions, levels, dict(named), tuple(left_out))
+    try:
+        positions, levels, arrays, left_out, warning = _meniscus.read_particles(os.fspath(path), max_bytes)
+    except InvalidInput as error:
+        name = os.fsdecode(path)
+        if os.path.exists(path) or not (found := _PATTERN.search(name)):
+            raise
+        one = f"{name[:found.start()]}{{number{_width(found[0])}}}{name[found.end():]}"
+        raise InvalidInput(f"{error}; a call reads one file: write f{one!r} in a loop over the numbers") from None
+    if warning is not None:
+        warnings.warn(f"{os.fsdecode(path)}: {warning}", SurfaceWarning, stacklevel=2)
+    values = Named({name: array for name, array, _ in arrays})
+    labels = {name: label for name, _, label in arrays if label != name}
+    return Particles(positions, levels, values, tuple(left_out), labels)
+
+
+#: What other programs have in place of a frame's number.
+_PATTERN = re.compile(r"\*+|%\d*d|#+")
+
+
+def _width(pattern: str) -> str:
+    """Of numbers with zeros before them: ":04" of "%04d" and "####"."""
+    digits = pattern.strip("%d") if pattern.startswith("%") else f"0{len(pattern)}" if pattern.startswith("#") else ""
+    return f":{digits}" if digits else ""
 
 
 def particle_extensions() -> tuple[str, ...]:

@@ -9,7 +9,7 @@ from typing import Any, Mapping, Optional
 from .statistics import Statistics
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ServerInfo:
     """A server, and the limits that it keeps."""
 
@@ -20,8 +20,11 @@ class ServerInfo:
     threads: int
     limits: Mapping[str, float]  #: by name, as in "max_particles_per_frame"; 0: none
 
+    def __repr__(self) -> str:
+        return f"<ServerInfo {self.version}, {self.backend}, {self.threads} threads>"
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class SessionInfo:
     """A session, and what it is doing."""
 
@@ -43,8 +46,13 @@ class SessionInfo:
     last_frame_index: Optional[int]
     last_frame: Optional[Statistics]
 
+    def __repr__(self) -> str:
+        particles = "" if self.last_frame is None else f", {self.last_frame.particles:,} particles"
+        state = "live" if self.uploading else "at rest"
+        return f"<Session {_shown(self.name, self.id)} {state}, {_frames(self.frames)}{particles}>"
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class RecordingInfo:
     """Frames of a session that the server has kept."""
 
@@ -61,3 +69,16 @@ class RecordingInfo:
     bytes: int
     being_written: bool
     damaged: bool  #: behind the last of these frames
+
+    def __repr__(self) -> str:
+        state = ", being written" if self.being_written else ", damaged" if self.damaged else ""
+        name = _shown(self.name, self.session_id)
+        return f"<Recording {self.number} of {name}, {_frames(self.frames)}, {self.bytes:,} bytes{state}>"
+
+
+def _frames(count: int) -> str:
+    return f"{count} frame{'' if count == 1 else 's'}"
+
+
+def _shown(name: str, session_id: str) -> str:
+    return f'"{name}"' if name else session_id

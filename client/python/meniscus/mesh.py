@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import html
 import os
 from functools import cached_property
 from typing import Any, Mapping, Optional, Union
@@ -9,7 +11,9 @@ from typing import Any, Mapping, Optional, Union
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _meniscus
+from . import _meniscus, exchange
+from .errors import InvalidInput
+from .named import Named
 from .statistics import Statistics
 
 
@@ -29,6 +33,12 @@ class Mesh:
     def vertices(self) -> NDArray[np.float64]:
         """(N, 3), world units: exact but for one rounding; made when it is asked for first."""
         return self._raw.vertices()
+
+    @cached_property
+    def vertices32(self) -> NDArray[np.float32]:
+        """(N, 3), world units, as float32, which most renderers take: half the memory of ``vertices``, and made
+        without them."""
+        return self._raw.vertices32()
 
     @property
     def lattice(self) -> NDArray[np.int32]:
@@ -52,8 +62,9 @@ class Mesh:
 
     @cached_property
     def attributes(self) -> Mapping[str, NDArray[Any]]:
-        """By name, what the vertices have of the particles' arrays, views: (N,), or (N, 3) or (N, 4)."""
-        return dict(self._raw.attributes())
+        """By name, what the vertices have of the particles' arrays, views: (N,), or (N, 3) or (N, 4). The name of an
+        array in a file, such as "Temperature (K)", finds ``temperature__k_``, too."""
+        return Named(self._raw.attributes())
 
     @property
     def spray(self) -> NDArray[np.float32]:
@@ -70,6 +81,67 @@ class Mesh:
         """Vertices lie on multiples of ``cell_size / 2**offset_bits``."""
         return self._raw.offset_bits
 
+    @cached_property
+    def bounds(self) -> NDArray[np.float64]:
+        """(2, 3), world units: the smallest and the largest corner of the box around it. Raises InvalidInput for an
+        empty mesh, which has none."""
+        if len(self.lattice) == 0:
+            raise InvalidInput("this mesh is empty, and has no bounds")
+        corners = np.stack([self.lattice.min(axis=0), self.lattice.max(axis=0)])
+        box: NDArray[np.float64] = corners * (self.cell_size / 2.0**self.offset_bits)
+        box.flags.writeable = False
+        return box
+
+    @cached_property
+    def area(self) -> float:
+        """Of all triangles, world units squared."""
+        return self._raw.area()
+
+    @cached_property
+    def volume(self) -> float:
+        """That the triangles enclose, world units cubed."""
+        return self._raw.volume()
+
+    def to_pyvista(self) -> Any:
+        """A ``pyvista.PolyData`` with normals, attributes and, of the triangles, levels. Raises ImportError where
+        there is no pyvista, here and below likewise."""
+        return exchange.to_pyvista(self)
+
+    def to_trimesh(self) -> Any:
+        """A ``trimesh.Trimesh`` with normals, and attributes as ``vertex_attributes``."""
+        return exchange.to_trimesh(self)
+
+    def to_open3d(self) -> Any:
+        """An ``open3d.t.geometry.TriangleMesh`` with normals, attributes and, of the triangles, levels."""
+        return exchange.to_open3d(self)
+
+    def png(
+        self, width: int = 600, height: int = 400, *, color: str = "", up: str = "y", wireframe: bool = False
+    ) -> bytes:
+        """A picture, as ``meniscus picture`` draws it: the content of a PNG file.
+
+        color: an attribute, or "velocity.x" of its components; "": water. up: "y" or "z". wireframe: lines colored by
+        level. Raises InvalidInput for another attribute or axis, or more than 8192 pixels a side.
+        """
+        return self._raw.png(width, height, color, up, wireframe)
+
+    def _repr_html_(self) -> str:
+        """For notebooks: a picture, where that takes little time."""
+        words = html.escape(repr(self).strip("<>"))
+        if not 0 < len(self.triangles) <= _MOST_DRAWN:
+            return f"<p>{words}</p>"
+        picture = base64.b64encode(self.png()).decode()
+        return f'<figure><img src="data:image/png;base64,{picture}" alt=""><figcaption>{words}</figcaption></figure>'
+
+    def __copy__(self) -> Mesh:
+        return Mesh(self._raw, self.statistics)
+
+    def __deepcopy__(self, _: Any) -> Mesh:
+        return self.__copy__()  # nothing in it can be changed
+
+    def __reduce__(self) -> Any:
+        return _restored, (self._raw.state(), self.statistics)
+
     def sha256(self) -> str:
         """The identity of the geometry, as ``mesh_sha256`` of the command line: 64 hexadecimal digits."""
         return self._raw.sha256()
@@ -85,6 +157,15 @@ class Mesh:
     def __repr__(self) -> str:
         names = "".join(f", {name}" for name in self.attributes)
         return f"<meniscus.Mesh: {len(self.lattice)} vertices, {len(self.triangles)} triangles{names}>"
+
+
+#: Triangles of a mesh that a notebook draws by itself: some tenths of a second.
+_MOST_DRAWN = 2_000_000
+
+
+def _restored(state: Mapping[str, Any], statistics: Optional[Statistics]) -> Mesh:
+    """A mesh that was pickled. Raises InvalidInput for what no mesh can consist of."""
+    return Mesh(_meniscus.restore_mesh(state), statistics)
 
 
 class DeviceArray:

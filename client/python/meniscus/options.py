@@ -6,6 +6,7 @@ import os
 from typing import Any, Mapping, Sequence, Union
 
 from .errors import InvalidInput
+from .named import array_name
 
 #: Of a session's attributes those that meshes have: "all", their names, or names with bits (0: exact).
 AttributeRequest = Union[str, Sequence[str], Mapping[str, int]]
@@ -37,9 +38,15 @@ def attribute_text(request: AttributeRequest) -> str:
 
 
 def _name(name: Any) -> str:
-    if not isinstance(name, str) or not name or any(c in " :" for c in name):
+    if not isinstance(name, str) or not name.isprintable() or ":" in name or not name.strip():
         raise InvalidInput(f"the attribute name {name!r} must be of a-z, 0-9 and _")
-    return name
+    if len(name.encode()) > _LONGEST_NAME:
+        raise InvalidInput(f"the attribute name {name[:_LONGEST_NAME]!r}... must be of at most {_LONGEST_NAME} bytes")
+    return array_name(name)
+
+
+#: Bytes of a name of an array.
+_LONGEST_NAME = 64
 
 
 def _text(name: str, value: Any) -> str:

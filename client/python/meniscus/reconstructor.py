@@ -10,6 +10,7 @@ from .errors import SurfaceWarning
 from .mesh import DeviceMesh, Mesh
 from .options import names_text, option_texts
 from .statistics import Statistics
+from .types import ArrayLike, Real, Whole
 
 
 class Reconstructor:
@@ -49,12 +50,10 @@ class Reconstructor:
     interpreter's lock is not held while a surface is computed, and Ctrl-C ends the computation.
     """
 
-    def __init__(
-        self, particle_radius: float, *, attributes: Union[str, Sequence[str]] = "all", **options: Any
-    ) -> None:
+    def __init__(self, particle_radius: Real, *, attributes: Union[str, Sequence[str]] = "all", **options: Any) -> None:
         texts = option_texts({"particle_radius": particle_radius, **options})
         texts["attribute"] = names_text(attributes)
-        self._raw = _meniscus.Reconstructor(texts)
+        self._raw = _meniscus.make_reconstructor(texts)
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -67,7 +66,11 @@ class Reconstructor:
         return self._raw.backend
 
     def reconstruct(
-        self, positions: Any, *, levels: Any = None, attributes: Optional[Mapping[str, Any]] = None
+        self,
+        positions: ArrayLike,
+        *,
+        levels: Optional[ArrayLike] = None,
+        attributes: Optional[Mapping[str, ArrayLike]] = None,
     ) -> Mesh:
         """The surface of a frame.
 
@@ -83,7 +86,11 @@ class Reconstructor:
         return self._reconstruct(positions, levels, attributes, is_last=False)
 
     def reconstruct_on_device(
-        self, positions: Any, *, levels: Any = None, attributes: Optional[Mapping[str, Any]] = None
+        self,
+        positions: ArrayLike,
+        *,
+        levels: Optional[ArrayLike] = None,
+        attributes: Optional[Mapping[str, ArrayLike]] = None,
     ) -> DeviceMesh:
         """Reconstructs a frame, but the mesh stays on the GPU. Raises InvalidInput on the backend "cpu"."""
         if arrays.is_on_gpu(positions):
@@ -92,7 +99,7 @@ class Reconstructor:
             raw, figures = self._raw.device_mesh(*arrays.frame(positions, levels, attributes))
         return DeviceMesh(raw, _told(figures, callers=2))
 
-    def coarser(self, max_level: int) -> Mesh:
+    def coarser(self, max_level: Whole) -> Mesh:
         """The surface of the last frame once more, with no cell finer than ``max_level``, 1 to 3: fewer triangles, as
         closed. Nothing is sampled again."""
         return Mesh(self._raw.coarser(max_level))
@@ -111,11 +118,11 @@ class Reconstructor:
 
 
 def reconstruct(
-    positions: Any,
-    particle_radius: float,
+    positions: ArrayLike,
+    particle_radius: Real,
     *,
-    levels: Any = None,
-    attributes: Optional[Mapping[str, Any]] = None,
+    levels: Optional[ArrayLike] = None,
+    attributes: Optional[Mapping[str, ArrayLike]] = None,
     **options: Any,
 ) -> Mesh:
     """The surface of one frame of particles, computed in this process.

@@ -24,7 +24,7 @@ class RecordingFile:
 
     def __init__(self, path: Union[str, os.PathLike[str]]) -> None:
         self.path = os.fspath(path)
-        self._raw = _meniscus.RecordingFile(self.path)
+        self._raw = _meniscus.open_recording_file(self.path)
         frames = self._raw.frames()
         self.indices: tuple[int, ...] = tuple(index for index, _ in frames)  #: as the frames were pushed, rising
         self.times: tuple[float, ...] = tuple(time for _, time in frames)  #: of the simulation

@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Optional
+from typing import Any
 
 from . import _meniscus
-from .errors import ForkedError, InvalidInput, ServerError
+from .errors import ForkedError, ServerError
 from .information import SessionInfo
-from .options import AttributeRequest, attribute_text, option_texts
-from .receiving import Handler
+from .opening import open_particle_watcher, open_stream, open_watcher
 from .statistics import Statistics
 from .stream import Stream
 from .watcher import ParticleWatcher, Watcher
-
-#: Called at each attempt to go on after a connection broke, in a thread of the library's, which waits for it: the
-#: attempt's number, whether it has succeeded (otherwise it begins now), why, and seconds until it is given up.
-ReconnectHandler = Callable[[int, bool, str, float], None]
 
 
 class Session:
@@ -24,8 +19,9 @@ class Session:
     It ends with the ``with`` block, or with this object, if it was created by it; one that was there before stays.
     """
 
-    def __init__(self, raw: _meniscus.Session) -> None:
+    def __init__(self, raw: _meniscus.Session, viewer: str = "") -> None:
         self._raw = raw
+        self.viewer = viewer  #: the page of the server's viewer; "": not known
 
     @property
     def id(self) -> str:
@@ -80,56 +76,3 @@ class Session:
 def session_info(fields: dict[str, Any]) -> SessionInfo:
     last = fields.pop("last_frame")
     return SessionInfo(**fields, last_frame=None if last is None else Statistics.of(last))
-
-
-def open_stream(
-    open_raw: Callable[[dict[str, str], Optional[ReconnectHandler]], _meniscus.Stream],
-    *,
-    meshes: bool = True,
-    attributes: AttributeRequest = "all",
-    on_reconnect: Optional[ReconnectHandler] = None,
-    **options: Any,
-) -> Stream:
-    texts = option_texts({"meshes": meshes, **options})
-    texts["attribute"] = attribute_text(attributes)
-    handler = _handler(on_reconnect)
-    stream = Stream(open_raw(texts, handler), meshes)
-    stream._handler = handler
-    return stream
-
-
-def open_watcher(
-    open_raw: Callable[[dict[str, str], Optional[ReconnectHandler]], _meniscus.Watcher],
-    *,
-    attributes: AttributeRequest = "all",
-    on_reconnect: Optional[ReconnectHandler] = None,
-    **options: Any,
-) -> Watcher:
-    texts = option_texts(options)
-    texts["attribute"] = attribute_text(attributes)
-    handler = _handler(on_reconnect)
-    watcher = Watcher(open_raw(texts, handler))
-    watcher._handler = handler
-    return watcher
-
-
-def open_particle_watcher(
-    open_raw: Callable[[dict[str, str], Optional[ReconnectHandler]], _meniscus.ParticleWatcher],
-    *,
-    on_reconnect: Optional[ReconnectHandler] = None,
-    **options: Any,
-) -> ParticleWatcher:
-    handler = _handler(on_reconnect)
-    watcher = ParticleWatcher(open_raw(option_texts(options), handler))
-    watcher._handler = handler
-    return watcher
-
-
-def _handler(on_reconnect: Optional[ReconnectHandler]) -> Optional[Handler]:
-    if on_reconnect is None:
-        return None
-    if not callable(on_reconnect):
-        raise InvalidInput(
-            f"on_reconnect is {on_reconnect!r}, must be a function of attempt, connected, reason and seconds left"
-        )
-    return Handler(on_reconnect)

@@ -16,7 +16,7 @@ class FrameWarning:
     text: str  #: the same in words, with what to do
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Statistics:
     """Counts, times and memory of one frame. Lengths are in world units, times in seconds."""
 
@@ -49,6 +49,11 @@ class Statistics:
     latency_seconds: float = 0.0  #: time from the frame's last byte to the end of its encoding, s
     encoded_bytes: int = 0  #: all bricks as sent, bytes
     # end of rows
+
+    def __repr__(self) -> str:
+        codes = "".join(f", {warning.code}" for warning in self.warnings)
+        shown = f"{self.particles:,} particles, {self.triangles:,} triangles, {self.total_seconds:.3g} s{codes}"
+        return f"<Statistics: {shown}>"
 
     @classmethod
     def of(cls, figures: Mapping[str, Any]) -> Statistics:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import asyncio
 from collections import deque
 from concurrent.futures import wait
-from typing import Any, Mapping, Optional
+from functools import partial
+from typing import Mapping, Optional
 
 from . import _meniscus, arrays
 from .background import Worker
 from .frame import Frame
 from .receiving import Frames
+from .types import ArrayLike, Real, Whole
 
 
 class Stream(Frames[Frame]):
@@ -29,39 +31,48 @@ class Stream(Frames[Frame]):
 
     def push(
         self,
-        positions: Any,
+        positions: ArrayLike,
         *,
-        levels: Any = None,
-        attributes: Optional[Mapping[str, Any]] = None,
-        time: float = 0.0,
-        index: Optional[int] = None,
+        levels: Optional[ArrayLike] = None,
+        attributes: Optional[Mapping[str, ArrayLike]] = None,
+        time: Real = 0.0,
+        index: Optional[Whole] = None,
     ) -> int:
         """Sends one frame, copied; waits while the server does not take more. Returns the frame's index.
 
-        The arrays are those of Reconstructor.reconstruct(). ``time`` is the simulation's. ``index`` is greater than
-        the one before; None: by one, from 0. Raises InvalidInput for arrays that are wrong, and the frame is then not
-        pushed; InvalidInput, LimitExceeded or ServerError for what the server has refused. Ctrl-C in a wait cancels
-        the stream.
+        The arrays are those of Reconstructor.reconstruct(); those on a GPU are copied down by their library. ``time``
+        is the simulation's. ``index`` is greater than the one before; None: by one, from 0. Raises InvalidInput for
+        arrays that are wrong, and the frame is then not pushed; InvalidInput, LimitExceeded or ServerError for what
+        the server has refused. Ctrl-C in a wait cancels the stream.
         """
-        return self._raw.push(*arrays.frame(positions, levels, attributes), index, time)
+        return self._raw.push(*arrays.frame_on_host(positions, levels, attributes), index, time)
 
     def try_push(
         self,
-        positions: Any,
+        positions: ArrayLike,
         *,
-        levels: Any = None,
-        attributes: Optional[Mapping[str, Any]] = None,
-        time: float = 0.0,
-        index: Optional[int] = None,
+        levels: Optional[ArrayLike] = None,
+        attributes: Optional[Mapping[str, ArrayLike]] = None,
+        time: Real = 0.0,
+        index: Optional[Whole] = None,
     ) -> bool:
         """Pushes where push() would not wait; otherwise False, and nothing was taken, neither the frame nor its
         index."""
-        return self._raw.try_push(*arrays.frame(positions, levels, attributes), index, time)
+        return self._raw.try_push(*arrays.frame_on_host(positions, levels, attributes), index, time)
 
-    async def apush(self, positions: Any, **arguments: Any) -> int:
+    async def apush(
+        self,
+        positions: ArrayLike,
+        *,
+        levels: Optional[ArrayLike] = None,
+        attributes: Optional[Mapping[str, ArrayLike]] = None,
+        time: Real = 0.0,
+        index: Optional[Whole] = None,
+    ) -> int:
         """push() for asyncio, one after the other. A task that is cancelled while it waits has pushed the frame all
         the same; until then the arrays must stay as they are."""
-        return await asyncio.wrap_future(self._pushes.call(lambda: self.push(positions, **arguments)))
+        push = partial(self.push, positions, levels=levels, attributes=attributes, time=time, index=index)
+        return await asyncio.wrap_future(self._pushes.call(push))
 
     def finish(self) -> None:
         """No more frames will be pushed: ``for frame in stream`` ends after the last one."""

@@ -5,6 +5,7 @@
 #include "bindings.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/names.hpp"
+#include "python_words.hpp"
 #include "text_out.hpp"
 #include "threads/process.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 template <class... Arguments>
 void raise(const char* name, const std::exception& error, Arguments&&... further) {
     const py::object type = py::module_::import("meniscus.errors").attr(name);
-    const py::object raised = type(text_out(error.what()), std::forward<Arguments>(further)...);
+    const py::object raised = type(text_out(in_python_words(error.what())), std::forward<Arguments>(further)...);
     PyErr_SetObject(type.ptr(), raised.ptr());
 }
 

@@ -13,14 +13,10 @@ PyObject* refuse_new(PyTypeObject* type, PyObject* /*arguments*/, PyObject* /*ke
     return nullptr;
 }
 
-/// X.__new__(X) of a class without a constructor would make an object with nothing behind it.
+/// X.__new__(X) would make an object with nothing behind it. The functions that return the objects make them otherwise.
 void forbid_bare_objects(const pybind11::module_& module) {
-    for (const auto& [name, member] : module.attr("__dict__").cast<pybind11::dict>()) {
-        if (PyType_Check(member.ptr()) == 0) continue;
-        auto* const type = reinterpret_cast<PyTypeObject*>(member.ptr());
-        const bool has_constructor = type->tp_init != type->tp_base->tp_init;
-        if (!has_constructor) type->tp_new = refuse_new;
-    }
+    for (const auto& [name, member] : module.attr("__dict__").cast<pybind11::dict>())
+        if (PyType_Check(member.ptr()) != 0) reinterpret_cast<PyTypeObject*>(member.ptr())->tp_new = refuse_new;
 }
 
 }  // namespace

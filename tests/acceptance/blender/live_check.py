@@ -3,6 +3,7 @@
 import os
 import signal
 import sys
+import time
 
 import bpy
 import numpy as np
@@ -96,6 +97,22 @@ check(
     np.allclose(np.array([v.co for v in mesh.vertices[:50]]), surface.vertices[:50].astype(np.float32), atol=0),
 )
 
+other = client.session(5.0, name="other", ephemeral=False)
+obj.meniscus.live.session = ""
+try:
+    bpy.ops.meniscus.connect()
+    reported = ""
+except RuntimeError as error:
+    reported = str(error)
+check("several sessions of which none is chosen are listed", "choose a session; there are: " in reported, reported)
+begin = time.monotonic()
+scene.frame_set(8)
+check("and no frame waits for one", time.monotonic() - begin < 10)
+other.end()
+obj.meniscus.live.session = "wave"
+bpy.ops.meniscus.connect()
+check("the chosen one is followed", wait_until(lambda: live_objects.follower_of(obj).newest is not None))
+
 bpy.ops.meniscus.list_sessions()
 listed = [entry.name for entry in bpy.context.window_manager.meniscus_sessions]
 check("the sessions are listed", listed == ["wave"], listed)
@@ -125,9 +142,13 @@ bpy.ops.meniscus.connect()
 check("a server that is not there is an error", wait_until(state_has("socket", True)), status.of(obj.name))
 bpy.ops.meniscus.disconnect()
 obj.meniscus.live.address = "no address:at:all"
-bpy.ops.meniscus.connect()
-check("so is a wrong address", wait_until(state_has("no address", True)), status.of(obj.name))
-check("which is not tried again", wait_until(lambda: live_objects.follower_of(obj).ended))
+try:
+    bpy.ops.meniscus.connect()
+    reported = ""
+except RuntimeError as error:
+    reported = str(error)
+check("a wrong address is refused", "no address" in reported, reported)
+check("so that no frame waits for it", live_objects.follower_of(obj) is None)
 obj.meniscus.live.token_file = path("nothing")
 try:
     bpy.ops.meniscus.connect()

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from meniscus_blender.live import Follower, SessionChoice, Space, Target, chosen
+from meniscus_blender.live import AmbiguousChoice, Follower, SessionChoice, Space, Target, chosen
 from meniscus_blender.session_list import SessionList
 
 PATIENCE = 20.0
@@ -182,6 +182,35 @@ def test_a_wrong_token_is_not_tried_again(follow):
     follower._thread.join(PATIENCE)
     assert follower.ended and len(tries) == 1
     assert follower.state.text == "the token is wrong" and follower.state.is_error
+
+
+def test_several_sessions_of_which_none_is_chosen_are_not_waited_for(follow):
+    follower = follow(Server(session("dam", "1"), session("lake", "2")), pause=1000.0)
+    assert "choose a session; there are: dam (1)" in follower.wait_for_answer(PATIENCE)
+    assert follower.wait(None) is None and follower.state.is_error
+    with pytest.raises(AmbiguousChoice):
+        chosen([session("dam", "1"), session("dam", "2")], "dam")
+
+
+def test_a_session_that_may_come_is_no_refusal_and_waited_for_once(follow):
+    server = Server()
+    follower = follow(server, Target("dam"))
+    assert follower.wait_for_answer(PATIENCE) == ""
+    assert follower.wait(0.01) is None
+    assert follower.wait(None) is None, "a second wait would have no end"
+    server.frames.put(frame(1))
+    server.listed.append(session("dam"))
+    with follower._changed:
+        assert follower._changed.wait_for(lambda: follower._newest is not None, PATIENCE)
+    assert follower.wait(None).index == 1
+
+
+def test_a_final_error_is_a_refusal(follow):
+    def connect():
+        raise PermissionError("the token is wrong")
+
+    follower = follow(SimpleNamespace(connect=connect), final=lambda error: isinstance(error, PermissionError))
+    assert follower.wait_for_answer(PATIENCE) == "the token is wrong"
 
 
 def test_stopping_ends_a_wait_at_once(follow):

@@ -53,6 +53,16 @@ def test_a_blender_without_the_package_names_the_wheel(modules):
         assert part in str(raised.value)
 
 
+@pytest.mark.parametrize("is_debians", [True, False])
+def test_on_debian_the_package_of_debian_is_named(modules, monkeypatch, is_debians):
+    put(modules, __init__="import nothing_of_this_name")
+    monkeypatch.setattr(package, "uses_debians_python", lambda: is_debians)
+    with pytest.raises(package.PackageMissing) as raised:
+        package.meniscus()
+    assert ("python3-meniscus_*.deb" in str(raised.value)) == is_debians
+    assert package.wheel_name() in str(raised.value)
+
+
 def test_a_package_for_another_python_is_reported(modules):
     put(modules, __init__="from ._meniscus import __version__")
     (modules / "meniscus" / "_meniscus.cpython-37m-x86_64-linux-gnu.so").touch()

@@ -2,7 +2,7 @@
 
 import pytest
 
-from meniscus_blender.sequence import SequenceError, Timing, files, path_of, pattern_of, span
+from meniscus_blender.sequence import MissingFile, SequenceError, Timing, files, gaps_text, path_of, pattern_of, span
 
 
 def make(folder, *names):
@@ -48,6 +48,15 @@ def test_a_file_that_is_missing_is_named(tmp_path):
         path_of(str(tmp_path / "nowhere" / "f{}.vtk"), 0)
     with pytest.raises(SequenceError, match="needs one {}"):
         path_of(str(tmp_path / "f{}_{}.vtk"), 0)
+
+
+def test_gaps_are_told_in_one_sentence(tmp_path):
+    assert gaps_text([1, 2, 3]) == gaps_text([5]) == gaps_text([20, 40, 60]) == ""
+    assert gaps_text([20, 30, 60]) == "2 of the numbers 20 to 60 by 10 have no file: 40, 50"
+    assert gaps_text([1, 2, 258]) == "255 of the numbers 1 to 258 have no file: 3, 4, 5, 6, 7, 8, 9, 10, ..."
+    make(tmp_path, "f1.vtk", "f3.vtk")
+    with pytest.raises(MissingFile):
+        path_of(str(tmp_path / "f{}.vtk"), 2)
 
 
 def test_the_stride_divides_all_distances():

@@ -80,6 +80,38 @@ def test_what_has_no_place_is_told(positions, tmp_path):
     assert len(particles.left_out) == 1 and "tensor" in particles.left_out[0]
 
 
+def test_a_mesh_that_is_read_as_particles_is_warned_of_as_in_the_command_line(mesh, tmp_path):
+    mesh.save(tmp_path / "mesh.ply")
+    with pytest.warns(meniscus.SurfaceWarning) as warned:
+        assert len(meniscus.read_particles(tmp_path / "mesh.ply")) == len(mesh.vertices)
+    text = f"the file has {len(mesh.triangles)} faces, so that it is a mesh: its {len(mesh.vertices)} corners are taken"
+    assert [str(one.message) for one in warned] == [f"{tmp_path / 'mesh.ply'}: {text} as particles"]
+    assert warned[0].filename == __file__
+    printed = command_line.said_beside("reconstruct", tmp_path / "mesh.ply", "-o", tmp_path / "o.ply", "-r", 0.05)
+    assert str(warned[0].message) in printed
+
+
+@pytest.mark.parametrize(
+    "pattern, one",
+    [
+        ("frame_*.vtk", "frame_{number}.vtk"),
+        ("frame_%04d.vtk", "frame_{number:04}.vtk"),
+        ("frame_%d.vtk", "frame_{number}.vtk"),
+        ("frame_####.vtk", "frame_{number:04}.vtk"),
+    ],
+)
+def test_a_pattern_of_files_is_answered_by_the_file_of_a_number(pattern, one, tmp_path):
+    with pytest.raises(meniscus.InvalidInput) as raised:
+        meniscus.read_particles(tmp_path / pattern)
+    advice = f"; a call reads one file: write f'{tmp_path / one}' in a loop over the numbers"
+    assert "no such file" in str(raised.value) and str(raised.value).endswith(advice)
+
+
+def test_a_file_with_a_star_in_its_name_is_read(positions, tmp_path):
+    np.save(tmp_path / "a*b.npy", positions)
+    assert len(meniscus.read_particles(tmp_path / "a*b.npy")) == len(positions)
+
+
 def test_arrays_outlive_the_particles_and_can_be_written_to(file, positions):
     read = meniscus.read_particles(file)
     places, velocity = read.positions, read.attributes["velocity"]

@@ -9,6 +9,7 @@
 
 #include "bindings.hpp"
 #include "information.hpp"
+#include "meniscus/client/session_lookup.hpp"
 #include "sessions/opening.hpp"
 #include "sessions/session.hpp"
 #include "text_options/client_options.hpp"
@@ -74,14 +75,14 @@ Held<HeldSession> open_session(const Connected& connected, const Options& option
     });
 }
 
-py::object snapshot(const Connected& connected, const py::object& session_id, const Options& options) {
-    const std::string id = text_of(session_id, "session_id");
+py::object snapshot(const Connected& connected, const py::object& given, const Options& options) {
+    const std::string session = text_of(given, "session");
     auto reader = reader_of(options);
     client::SnapshotOptions request = text_options::read_snapshot(reader);
     reader.finish();
     auto frame = call_client(connected, [&](Client& client, const std::stop_token& stop) {
         request.stop = stop;
-        return client.snapshot(id, request);
+        return client.snapshot(client::session_id_of(client, session, stop), request);
     });
     if (!frame) return py::none();
     return py::cast(handle_of(std::move(*frame)));
@@ -91,16 +92,17 @@ std::uint32_t recording_number(const py::object& given) {
     return static_cast<std::uint32_t>(whole_number(given, "number", std::numeric_limits<std::uint32_t>::max()));
 }
 
-Held<RecordingSource> read_recording(const Connected& connected, const py::object& session_id, const py::object& number,
+Held<RecordingSource> read_recording(const Connected& connected, const py::object& given, const py::object& number,
                                      const py::object& position, const py::object& count, bool spray) {
     constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
-    const std::string id = text_of(session_id, "session_id");
+    const std::string session = text_of(given, "session");
     const std::uint32_t which = recording_number(number);
     client::ReadOptions request{.position = whole_number(position, "position", largest),
                                 .count = whole_number(count, "count", largest),
                                 .spray = spray};
     return call_client(connected, [&](Client& client, const std::stop_token& stop) {
         request.stop = stop;
+        const std::string id = client::recorded_session_id_of(client, session, stop);
         return Held<RecordingSource>(new RecordingSource(client.read_recording(id, which, request)));
     });
 }
@@ -109,8 +111,8 @@ Held<RecordingSource> read_recording(const Connected& connected, const py::objec
 
 void bind_client(py::module_& module) {
     using Stop = std::stop_token;
+    module.def("connect", &connected_client);
     py::class_<Connected, Held<Connected>>(module, "Client")
-        .def(py::init(&connected_client))
         .def(
             "info",
             [](const Connected& connected) {
@@ -126,42 +128,45 @@ void bind_client(py::module_& module) {
                  return to_list(call_client(connected, [](Client& c, const Stop& stop) { return c.sessions(stop); }));
              })
         .def("session_info",
-             [](const Connected& connected, const py::object& session_id) {
-                 const std::string id = text_of(session_id, "session_id");
-                 return to_dict(
-                     call_client(connected, [&](Client& c, const Stop& stop) { return c.session(id, stop); }));
+             [](const Connected& connected, const py::object& given) {
+                 const std::string session = text_of(given, "session");
+                 return to_dict(call_client(connected, [&](Client& c, const Stop& stop) {
+                     return c.session(client::session_id_of(c, session, stop), stop);
+                 }));
              })
         .def("delete_session",
-             [](const Connected& connected, const py::object& session_id) {
-                 const std::string id = text_of(session_id, "session_id");
-                 call_client(connected, [&](Client& c, const Stop& stop) { c.delete_session(id, stop); });
+             [](const Connected& connected, const py::object& given) {
+                 const std::string session = text_of(given, "session");
+                 call_client(connected, [&](Client& c, const Stop& stop) {
+                     c.delete_session(client::session_id_of(c, session, stop), stop);
+                 });
              })
         .def("stream",
-             [](const Connected& connected, const py::object& session_id, const Options& options,
+             [](const Connected& connected, const py::object& given, const Options& options,
                 const py::object& on_reconnect) {
                  const std::shared_ptr<Client> client = connected.open();
-                 return open_stream(options, on_reconnect,
-                                    [&, id = text_of(session_id, "session_id")](const auto& request) {
-                                        return client->stream(id, request);
-                                    });
+                 return open_stream(
+                     options, on_reconnect, [&, session = text_of(given, "session")](const auto& request) {
+                         return client->stream(client::session_id_of(*client, session, request.stop), request);
+                     });
              })
         .def("watch",
-             [](const Connected& connected, const py::object& session_id, const Options& options,
+             [](const Connected& connected, const py::object& given, const Options& options,
                 const py::object& on_reconnect) {
                  const std::shared_ptr<Client> client = connected.open();
-                 return open_watcher(options, on_reconnect,
-                                     [&, id = text_of(session_id, "session_id")](const auto& request) {
-                                         return client->watch(id, request);
-                                     });
+                 return open_watcher(
+                     options, on_reconnect, [&, session = text_of(given, "session")](const auto& request) {
+                         return client->watch(client::session_id_of(*client, session, request.stop), request);
+                     });
              })
         .def("watch_particles",
-             [](const Connected& connected, const py::object& session_id, const Options& options,
+             [](const Connected& connected, const py::object& given, const Options& options,
                 const py::object& on_reconnect) {
                  const std::shared_ptr<Client> client = connected.open();
-                 return open_particle_watcher(options, on_reconnect,
-                                              [&, id = text_of(session_id, "session_id")](const auto& request) {
-                                                  return client->watch_particles(id, request);
-                                              });
+                 return open_particle_watcher(
+                     options, on_reconnect, [&, session = text_of(given, "session")](const auto& request) {
+                         return client->watch_particles(client::session_id_of(*client, session, request.stop), request);
+                     });
              })
         .def("snapshot", &snapshot)
         .def("recordings",
@@ -170,10 +175,12 @@ void bind_client(py::module_& module) {
              })
         .def("read_recording", &read_recording)
         .def("delete_recording",
-             [](const Connected& connected, const py::object& session_id, const py::object& number) {
-                 const std::string id = text_of(session_id, "session_id");
+             [](const Connected& connected, const py::object& given, const py::object& number) {
+                 const std::string session = text_of(given, "session");
                  const std::uint32_t which = recording_number(number);
-                 call_client(connected, [&](Client& c, const Stop& stop) { c.delete_recording(id, which, stop); });
+                 call_client(connected, [&](Client& c, const Stop& stop) {
+                     c.delete_recording(client::recorded_session_id_of(c, session, stop), which, stop);
+                 });
              })
         .def("close", &Connected::close);
 }

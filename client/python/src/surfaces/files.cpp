@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "bindings.hpp"
+#include "formats/containers/array_collector.hpp"
 #include "formats/meshes/mesh_formats.hpp"
 #include "formats/particles/particle_file.hpp"
 #include "text_out.hpp"
@@ -40,11 +41,15 @@ py::tuple read_particles(const py::object& path, const py::object& max_bytes) {
     py::list arrays;
     for (formats::NamedValues& values : particles.arrays)
         arrays.append(py::make_tuple(
-            values.name, array_of(std::move(values.data), dtype_of(values.type), columns_of(values.components))));
+            values.name, array_of(std::move(values.data), dtype_of(values.type), columns_of(values.components)),
+            text_out(values.label.empty() ? values.name : values.label)));
+    py::object warning = py::none();
+    if (particles.faces != 0)
+        warning = py::str(formats::corners_as_particles(particles.faces, particles.positions.size() / 3));
     py::list left_out;
     for (const std::string& line : particles.left_out) left_out.append(text_out(line));
-    return py::make_tuple(array_of(std::move(particles.positions), py::dtype::of<float>(), 3), levels, arrays,
-                          left_out);
+    return py::make_tuple(array_of(std::move(particles.positions), py::dtype::of<float>(), 3), levels, arrays, left_out,
+                          warning);
 }
 
 py::list as_list(std::span<const std::string_view> texts) {
@@ -57,6 +62,7 @@ py::list as_list(std::span<const std::string_view> texts) {
 
 void bind_files(py::module_& module) {
     module.def("read_particles", &read_particles, py::arg("path"), py::arg("max_bytes"));
+    module.def("array_name", &formats::array_name, py::arg("name"));
     module.def("particle_extensions", [] { return as_list(formats::particle_extensions()); });
     module.def("mesh_extensions", [] { return as_list(formats::mesh_extensions()); });
 }

@@ -9,14 +9,22 @@
 #include "bindings.hpp"
 #include "formats/meshes/mesh_content.hpp"
 #include "formats/meshes/mesh_formats.hpp"
+#include "formats/meshes/triangle_mesh.hpp"
+#include "formats/pictures/png.hpp"
 #include "formats/recordings/brick_file.hpp"
 #include "meniscus/attribute_coding.hpp"
 #include "meniscus/canonical_order.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/mesh_hash.hpp"
+#include "picture/picture.hpp"
+#include "surfaces/mesh_arrays.hpp"
+#include "surfaces/mesh_measures.hpp"
+#include "surfaces/mesh_state.hpp"
 #include "threads/ending.hpp"
 #include "threads/interpreter_lock.hpp"
 #include "threads/process.hpp"
 #include "values/arrays_out.hpp"
+#include "values/keywords.hpp"
 #include "values/paths.hpp"
 
 namespace py = pybind11;
@@ -24,61 +32,57 @@ namespace py = pybind11;
 namespace meniscus::python {
 namespace {
 
-const Mesh& mesh_of(const py::object& self) {
-    return *py::cast<const MeshHandle&>(self).mesh;
-}
-
-py::array lattice(const py::object& self) {
-    const Mesh& mesh = mesh_of(self);
-    return view(py::dtype::of<std::int32_t>(), mesh.vertices.size(), 3, mesh.vertices.data(), self);
-}
-
-py::array triangles(const py::object& self) {
-    const Mesh& mesh = mesh_of(self);
-    return view(py::dtype::of<std::uint32_t>(), mesh.triangles.size(), 3, mesh.triangles.data(), self);
-}
-
-py::object normals(const py::object& self) {
-    const auto& handle = py::cast<const MeshHandle&>(self);
-    const Mesh& mesh = *handle.mesh;
-    const bool has_normals = mesh.vertices.empty() ? handle.has_normals : !mesh.normals.empty();
-    if (!has_normals) return py::none();
-    return view(py::dtype::of<float>(), mesh.normals.size(), 3, mesh.normals.data(), self);
-}
-
-py::array spray(const py::object& self) {
-    const Mesh& mesh = mesh_of(self);
-    return view(py::dtype::of<float>(), mesh.spray.size(), 3, mesh.spray.data(), self);
-}
-
+/// In world units, each rounded once to float64, and for float32 once more.
+template <class Number>
 py::array vertices(const py::object& self) {
     const Mesh& mesh = mesh_of(self);
-    py::array_t<double> out(std::vector<py::ssize_t>{static_cast<py::ssize_t>(mesh.vertices.size()), 3});
-    auto* const places = reinterpret_cast<std::array<double, 3>*>(out.mutable_data());
-    without_lock([&] {
-        std::transform(mesh.vertices.begin(), mesh.vertices.end(), places,
-                       [&mesh](const LatticePosition& position) { return mesh.world(position); });
+    return filled_array<Number>(mesh.vertices.size(), 3, [&mesh](Number* out) {
+        without_lock([&] {
+            for (const LatticePosition& position : mesh.vertices)
+                for (const double coordinate : mesh.world(position)) *out++ = static_cast<Number>(coordinate);
+        });
     });
-    return read_only(std::move(out));
 }
 
 py::array levels(const py::object& self) {
     const Mesh& mesh = mesh_of(self);
-    py::array_t<std::uint8_t> out(static_cast<py::ssize_t>(mesh.triangles.size()));
-    for (const TriangleLevel level : choices<TriangleLevel>) {
-        const TriangleRange range = mesh.levels[static_cast<std::size_t>(level)];
-        std::fill_n(out.mutable_data() + range.first, range.count, level_byte(level));
-    }
-    return read_only(std::move(out));
+    return filled_array<std::uint8_t>(mesh.triangles.size(), 0, [&mesh](std::uint8_t* out) {
+        std::fill_n(out, mesh.triangles.size(), level_byte(TriangleLevel::crack));
+        for (const TriangleLevel level : choices<TriangleLevel>) {
+            const TriangleRange range = mesh.levels[static_cast<std::size_t>(level)];
+            std::fill_n(out + range.first, range.count, level_byte(level));
+        }
+    });
 }
 
-py::list attributes(const py::object& self) {
-    py::list out;
-    const Mesh& mesh = mesh_of(self);
-    for (const MeshAttribute& attribute : mesh.attributes)
-        out.append(py::make_tuple(attribute.name, view(dtype_of(attribute.type), mesh.vertices.size(),
-                                                       columns_of(attribute.components), attribute.data.data(), self)));
-    return out;
+/// measure: area_of or volume_of.
+double measured(const MeshHandle& handle, double (*measure)(const Mesh&)) {
+    require_own_process();
+    double result = 0.0;
+    without_lock([&] { result = measure(*handle.mesh); });
+    return result;
+}
+
+py::bytes png(const MeshHandle& handle, const py::object& width, const py::object& height, const std::string& color,
+              const std::string& up, bool wireframe) {
+    require_own_process();
+    rest_at_end();
+    const Computation computation;
+    constexpr std::uint64_t largest_side = 8192;
+    cli::PictureOptions options;
+    options.width = whole_number(width, "width", largest_side);
+    options.height = whole_number(height, "height", largest_side);
+    if (options.width == 0 || options.height == 0)
+        throw InvalidInput("a picture of " + std::to_string(options.width) + " x " + std::to_string(options.height) +
+                           " pixels has none, must have at least one");
+    options.color = color;
+    options.up = by_name<cli::UpAxis>(up, "up");
+    options.wireframe = wireframe;
+    std::string bytes;
+    without_lock([&] {
+        bytes = formats::png_bytes(cli::draw_picture(formats::to_triangles(in_canonical_order(*handle.mesh)), options));
+    });
+    return bytes;
 }
 
 std::string sha256(const MeshHandle& handle) {
@@ -120,17 +124,23 @@ void save(const MeshHandle& handle, const py::object& path) {
 
 void bind_mesh(py::module_& module) {
     py::class_<MeshHandle>(module, "Mesh")
-        .def_property_readonly("lattice", &lattice)
-        .def_property_readonly("triangles", &triangles)
-        .def_property_readonly("normals", &normals)
-        .def_property_readonly("spray", &spray)
+        .def_property_readonly("lattice", &lattice_view)
+        .def_property_readonly("triangles", &triangles_view)
+        .def_property_readonly("normals", &normals_view)
+        .def_property_readonly("spray", &spray_view)
         .def_property_readonly("cell_size", [](const MeshHandle& handle) { return handle.mesh->cell_size; })
         .def_property_readonly("offset_bits", [](const MeshHandle& handle) { return handle.mesh->offset_bits; })
-        .def("vertices", &vertices)
+        .def("vertices", &vertices<double>)
+        .def("vertices32", &vertices<float>)
         .def("levels", &levels)
-        .def("attributes", &attributes)
+        .def("attributes", &attribute_views)
+        .def("area", [](const MeshHandle& handle) { return measured(handle, &area_of); })
+        .def("volume", [](const MeshHandle& handle) { return measured(handle, &volume_of); })
+        .def("png", &png, py::arg("width"), py::arg("height"), py::arg("color"), py::arg("up"), py::arg("wireframe"))
+        .def("state", &state_of)
         .def("sha256", &sha256)
         .def("save", &save, py::arg("path"));
+    module.def("restore_mesh", &mesh_of_state, py::arg("state"));
 }
 
 }  // namespace meniscus::python

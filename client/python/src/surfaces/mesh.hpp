@@ -1,6 +1,8 @@
 // Meshes as Python sees them.
 #pragma once
 
+#include <pybind11/pybind11.h>
+
 #include <memory>
 #include <variant>
 
@@ -19,5 +21,10 @@ struct MeshHandle {
     /// Where the mesh is from: reconstructed here, or received, as it travelled. For a file of bricks.
     std::variant<Statistics, std::shared_ptr<const client::ReceivedFrame>> origin;
 };
+
+/// mesh: an object of that class.
+inline const Mesh& mesh_of(const pybind11::object& mesh) {
+    return *pybind11::cast<const MeshHandle&>(mesh).mesh;
+}
 
 }  // namespace meniscus::python

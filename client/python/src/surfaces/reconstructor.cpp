@@ -126,7 +126,6 @@ void release_memory(const PythonReconstructor& self) {
 
 void bind_reconstructor(py::module_& module) {
     py::class_<PythonReconstructor>(module, "Reconstructor")
-        .def(py::init(&make), py::arg("options"))
         .def_property_readonly("backend", [](const PythonReconstructor& self) { return self.content->backend(); })
         .def("settings", [](const PythonReconstructor& self) { return to_dict(self.content->settings()); })
         .def("reconstruct", &reconstruct, py::arg("positions"), py::arg("levels").none(true), py::arg("arrays"),
@@ -138,6 +137,7 @@ void bind_reconstructor(py::module_& module) {
              py::arg("arrays"))
         .def("coarser", &coarser, py::arg("max_level"))
         .def("release_memory", &release_memory);
+    module.def("make_reconstructor", &make, py::arg("options"));
 }
 
 }  // namespace meniscus::python

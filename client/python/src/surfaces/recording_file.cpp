@@ -82,8 +82,8 @@ py::list frames(const RecordingFile& file) {
 
 void bind_recording_file(py::module_& module) {
     module.def("read_bricks", &read_bricks);
+    module.def("open_recording_file", &open);
     py::class_<RecordingFile>(module, "RecordingFile", py::module_local())
-        .def(py::init(&open))
         .def_property_readonly("session_id", [](const RecordingFile& file) { return file.recording().session_id(); })
         .def_property_readonly("name", [](const RecordingFile& file) { return file.recording().description().name; })
         .def_property_readonly("cut_bytes", [](const RecordingFile& file) { return file.recording().cut_bytes(); })

@@ -1,7 +1,5 @@
 #include "values/arrays_in.hpp"
 
-#include <optional>
-
 #include "meniscus/error.hpp"
 
 namespace py = pybind11;
@@ -24,18 +22,6 @@ py::array as_array(const py::handle& value, const std::string& what) {
 template <class Number>
 bool holds(const py::array& array) {
     return array.dtype().equal(py::dtype::of<Number>());
-}
-
-std::optional<ElementType> element_type_of(const py::array& array) {
-    if (holds<float>(array)) return ElementType::float32;
-    if (holds<std::uint8_t>(array)) return ElementType::uint8;
-    if (holds<std::int32_t>(array)) return ElementType::int32;
-    if (holds<std::uint32_t>(array)) return ElementType::uint32;
-    return std::nullopt;
-}
-
-bool is_c_order(const py::array& array) {
-    return (array.flags() & py::array::c_style) != 0;
 }
 
 StridedPositions positions_of(const py::array& array) {
@@ -81,6 +67,22 @@ void check_length(const std::string& what, std::size_t length, std::size_t parti
 }
 
 }  // namespace
+
+bool is_c_order(const py::array& array) {
+    return (array.flags() & py::array::c_style) != 0;
+}
+
+bool is_of(const py::array& array, const py::dtype& type) {
+    return array.dtype().equal(type) && is_c_order(array);
+}
+
+std::optional<ElementType> element_type_of(const py::array& array) {
+    if (holds<float>(array)) return ElementType::float32;
+    if (holds<std::uint8_t>(array)) return ElementType::uint8;
+    if (holds<std::int32_t>(array)) return ElementType::int32;
+    if (holds<std::uint32_t>(array)) return ElementType::uint32;
+    return std::nullopt;
+}
 
 GivenFrame given_frame(const py::object& positions, const py::object& levels, const py::sequence& arrays) {
     GivenFrame given{positions_of(as_array(positions, "positions")), levels_of(levels), {}, {}};

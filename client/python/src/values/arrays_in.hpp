@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,12 @@
 #include "meniscus/strided_positions.hpp"
 
 namespace meniscus::python {
+
+/// Whether the numbers are of this type, in the machine's byte order, and lie in C order.
+bool is_of(const pybind11::array& array, const pybind11::dtype& type);
+bool is_c_order(const pybind11::array& array);
+/// None of the types of the library's arrays: no value.
+std::optional<ElementType> element_type_of(const pybind11::array& array);
 
 /// The arrays of one call, as meniscus/arrays.py makes them: borrowed from numpy as long as the interpreter's lock is
 /// held and the call's arguments live.

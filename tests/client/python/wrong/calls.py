@@ -30,7 +30,11 @@ ADDRESSES = [
     wrong("address: nobody listens", _connect("127.0.0.1:1"), Server, "127.0.0.1:1"),
     wrong("address: no socket", _connect("unix:/nowhere/at/all"), Server, "/nowhere/at/all"),
     wrong("address: a path too long", _connect("unix:/" + "a" * 200), (Bad, Server), "a"),
-    wrong("address: no such host", _connect("nowhere.invalid:1", timeout=5), Server, "nowhere.invalid"),
+    wrong(
+        "address: no such host", _connect("nowhere.invalid:1", timeout=5), Server, "nowhere.invalid", "name is known"
+    ),
+    wrong("address: of a page", _connect("http://127.0.0.1:9464"), Bad, "http://127", "HOST:PORT alone", "50051"),
+    wrong("address: of a page with TLS", _connect("https://water.example/"), Bad, "https://water", "HOST:PORT alone"),
 ]
 
 CONNECTIONS = {
@@ -41,7 +45,7 @@ CONNECTIONS = {
     "tls_cert without CA": ({"tls_cert": "/a.pem", "tls_key": "/a.key"}, Bad, "."),
     "token with a line": ({"token": "a\nb"}, Bad, "token", "ASCII"),
     "token with an umlaut": ({"token": "ä"}, Bad, "token", "ASCII"),
-    "token to another machine": ({"token": "secret"}, Bad, "token", "TLS|insecure"),
+    "token to another machine": ({"token": "secret"}, Bad, "token", r"\(tls_ca, insecure\)"),
     "timeout negative": ({"timeout": -1}, Bad, "timeout", "-1"),
     "timeout NaN": ({"timeout": nan}, Bad, "timeout"),
     "timeout infinite": ({"timeout": inf}, Bad, "timeout"),
@@ -53,7 +57,7 @@ CONNECTIONS = {
 }
 
 SESSIONS = {
-    "id no UUID": ({"id": "dam"}, Bad, "dam"),
+    "id no UUID": ({"id": "dam"}, Bad, "dam", "UUID"),
     "id empty": ({"id": ""}, (), "."),
     "id number": ({"id": 5}, Bad, "5"),
     "id object": ({"id": object()}, Bad, "id"),

@@ -1,0 +1,13 @@
+// What the libraries say, in the words of Python's side.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace meniscus::python {
+
+/// A message in which the flags of the command line are keywords: smoothness for --smoothness, field="color" for
+/// --field color; a session's id is called so.
+std::string in_python_words(std::string_view text);
+
+}  // namespace meniscus::python
