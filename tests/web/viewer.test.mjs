@@ -5,6 +5,7 @@ import './recovery.mjs';
 import './playback.mjs';
 import './recordings.mjs';
 import './camera.mjs';
+import './water.mjs';
 import './tools.mjs';
 import './codecs.mjs';
 import './colors.mjs';
