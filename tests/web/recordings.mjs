@@ -39,15 +39,32 @@ describe('a recording', { skip: missing }, () => {
       await page.keyboard.press('.');
       await shows(46);
       await screenshot(page, 'recording');
+      // A stream's figures are not those of a frame that rests.
+      for (const row of ['rate', 'latency', 'bytes', 'skipped', 'quality'])
+        assert.equal(await page.locator(`#${row}-row`).isVisible(), false, row);
 
       assert.match(page.url(), new RegExp(`#recording=${replay.session}/1&position=46`));
       await page.reload();
       await shows(46);
       await state(page, 'paused');
-      await page.fill('#scrub', '56');
+      await page.fill('#scrub', '50');
+      await shows(50);
+      // Figures and slider name the frame that is on the screen, also while it plays.
+      await page.evaluate(() => {
+        const view = document.getElementById('view');
+        const number = (id) => Number(document.getElementById(id).textContent.match(/[0-9]+/)?.[0]);
+        window.seen = [];
+        new MutationObserver(() => {
+          window.seen.push([Number(view.dataset.frame), number('frame'), number('at')]);
+        }).observe(view, { attributeFilter: ['data-frame'] });
+      });
       await page.click('#pause');
+      await page.locator('#rate-row').waitFor();
       await shows(59);
       await state(page, 'paused');
+      const seen = await page.evaluate(() => window.seen);
+      assert.ok(seen.length >= 9);
+      for (const [drawn, inFigures, atSlider] of seen) assert.deepEqual([inFigures, atSlider], [drawn, drawn]);
     } finally {
       rmSync(folder, { recursive: true });
     }

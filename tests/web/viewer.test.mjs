@@ -8,6 +8,7 @@ import './camera.mjs';
 import './water.mjs';
 import './tools.mjs';
 import './codecs.mjs';
+import './panels.mjs';
 import './colors.mjs';
 import './accessibility.mjs';
 import './keyboard.mjs';

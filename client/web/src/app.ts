@@ -38,7 +38,10 @@ export class App {
     wantedCodecs(location),
   );
   private readonly banner = new Banner();
-  private readonly heading = new Heading(this.server);
+  private readonly heading = new Heading(this.server, (live) => {
+    this.streaming = live;
+    this.showWhatApplies();
+  });
   private readonly offer = new RecordingOffer(this.server, (recording) => {
     this.go({ recording });
   });
@@ -57,6 +60,9 @@ export class App {
   private at: Pick<PageState, 'session' | 'recording' | 'position'> = {};
   private look: Look = 'water';
   private particles = false;
+  /** Whether the session that is shown is being streamed. */
+  private streaming = false;
+  private watchKind: WatchState['kind'] = 'connecting';
   /** From the link, for the first picture. */
   private linked: PageState = {};
   /** Whether nothing is tried any more. */
@@ -194,6 +200,7 @@ export class App {
     delete this.canvas.dataset.frame;
     delete this.canvas.dataset.triangles;
     delete this.canvas.dataset.particles;
+    this.watchKind = 'connecting';
     this.banner.say('');
     const watching = this.looking;
     element('watch', HTMLElement).hidden = !watching;
@@ -253,6 +260,8 @@ export class App {
 
   private watchState(state: WatchState): void {
     this.canvas.dataset.state = state.kind;
+    this.watchKind = state.kind;
+    this.showWhatApplies();
     this.watchIsOver = state.kind === 'token' || state.kind === 'refused';
     this.banner.watching(state);
     this.heading.watching(state);
@@ -269,6 +278,11 @@ export class App {
             : '',
       );
     if (state.kind === 'token') void this.tokenNeeded(state.reason);
+  }
+
+  private showWhatApplies(): void {
+    const playing = this.at.recording !== undefined && this.watchKind === 'live';
+    this.screen.overlay.setSeen(this.streaming ? 'stream' : playing ? 'playing' : 'resting');
   }
 
   private cameraMoving(moving: boolean): void {

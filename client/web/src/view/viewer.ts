@@ -36,6 +36,8 @@ export interface Coloring {
   readonly map: ColorMap;
   /** The range of numbers; none without any. */
   readonly range: ValueRange | undefined;
+  /** Whether there is no light, so that the colors are those of the map. */
+  readonly unlit: boolean;
 }
 
 export interface CameraPlace {
@@ -244,7 +246,7 @@ export class Viewer {
     }
     const before = this.colored;
     this.coloring = coloring;
-    if (coloring) this.coloredMaterial(coloring.quantity.kind).set(coloring.map, coloring.range);
+    if (coloring) this.coloredMaterial(coloring.quantity.kind).set(coloring.map, coloring.range, coloring.unlit);
     this.showLook();
     // The legend comes, or goes.
     if (this.colored !== before) this.resize();
