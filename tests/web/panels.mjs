@@ -23,7 +23,7 @@ describe('the panels', { skip: missing }, () => {
       assert.equal(await page.locator('#frame').innerText(), '0');
       assert.equal(await page.locator('#at').innerText(), 'frame 0');
       for (const tool of ['cut', 'probe', 'ruler', 'beside', 'color']) await page.click(`#${tool}`);
-      const titles = await page.locator('#overlay h3, .panel h3').allInnerTexts();
+      const titles = await page.locator('#overlay h2, .panel h2').allInnerTexts();
       assert.deepEqual(titles, ['Figures', 'Color', 'Cut', 'Probe', 'Ruler', 'Beside']);
       await page.getByText('No attribute is named in this session: --attribute velocity names one.').waitFor();
       // The ring of what has the focus leaves its name to be read.

@@ -19,6 +19,17 @@ describe('a recording', { skip: missing }, () => {
       const page = await open(server.url);
       const entry = page.locator(`[data-recording="${replay.session}/1"]`);
       await entry.getByText('60 frames').waitFor();
+      await entry.locator('.thumbnail[data-drawn]').waitFor();
+      const colors = await entry.locator('.thumbnail').evaluate((canvas) => {
+        const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+        return new Set(new Uint32Array(data.buffer)).size;
+      });
+      assert.ok(colors > 100, `${colors} colors`);
+      assert.equal(await entry.locator('code').innerText(), `${replay.session.slice(0, 8)}/1`);
+      const [above, heading] = await page.evaluate(() =>
+        ['no-sessions', 'recordings-heading'].map((id) => document.getElementById(id).getBoundingClientRect()),
+      );
+      assert.ok(heading.top - above.bottom >= 16, 'the heading has room above it');
       await screenshot(page, 'recordings');
       await entry.click();
       await state(page, 'live');
