@@ -31,6 +31,13 @@ describe('a recording', { skip: missing }, () => {
       );
       assert.ok(heading.top - above.bottom >= 16, 'the heading has room above it');
       await screenshot(page, 'recordings');
+      // Pages may not delete: the command that does is named.
+      await page.getByRole('button', { name: `Delete ${replay.session.slice(0, 8)}/1` }).click();
+      assert.match(
+        await page.locator('#delete-command').innerText(),
+        new RegExp(`^meniscus recordings --server 127\\.0\\.0\\.1 --delete ${replay.session}/1$`),
+      );
+      await page.keyboard.press('Escape');
       await entry.click();
       await state(page, 'live');
       await page.waitForFunction(() => Number(document.getElementById('view').dataset.frame) >= 2);

@@ -2,6 +2,8 @@
 import type { Recording } from '../gen/meniscus/v1/recording_service_pb';
 import { givenName, shortId } from '../list/session_name';
 import { recordingNameText, type RecordingName } from '../recordings/recording_name';
+import { showDeletion } from './delete_dialog';
+import { icon } from './icon';
 import { bytesText, countText } from './texts';
 
 export class RecordingCard {
@@ -33,7 +35,16 @@ export class RecordingCard {
     button.addEventListener('click', () => {
       chosen(name);
     });
-    this.item.append(button);
+    const remove = document.createElement('button');
+    remove.type = 'button';
+    remove.className = 'remove';
+    remove.title = 'Delete';
+    remove.setAttribute('aria-label', `Delete ${title.textContent} ${id.textContent}`.replace('  ', ' '));
+    remove.append(icon('icon-delete'));
+    remove.addEventListener('click', () => {
+      showDeletion(name);
+    });
+    this.item.append(button, remove);
   }
 
   show(recording: Recording): void {

@@ -12,7 +12,7 @@ import { Code, explain, RpcError } from '../rpc/status';
 import { factsOfSession } from '../scene_facts';
 import { arrange } from './arrange';
 import type { Banner } from './banner';
-import { fillCommand } from './fill_command';
+import { fillCommand } from './commands';
 import { element } from './page';
 import { followSearch, searched } from './search_field';
 import { SessionCard } from './session_card';

@@ -20,14 +20,15 @@ uniform sampler2D sunThickness;
 
 const vec3 absorption = vec3(13.0, 4.2, 1.8);
 
-// What is left of the light where the sun's has come through water, and, softer, near where water stands.
-vec3 sunlightAt(vec3 place) {
+// What is left of the sun's light where it has come through water. close: whether it is darker where water stands close by, too.
+vec3 sunlightAt(vec3 place, bool close) {
   vec2 at = (sunMatrix * vec4(place, 1.0)).xy;
   if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0)))) return vec3(1.0);
   float depth = max(textureLod(sunThickness, at, 0.0).r, 0.0);
-  float around = max(textureLod(sunThickness, at, 4.0).r, 0.0);
   // Some is reflected and scattered away, whatever its color.
-  return exp(-(absorption + 2.0) * depth) * (1.0 - 0.25 * smoothstep(0.0, 0.01, depth)) * (1.0 - 0.4 * smoothstep(0.0, 0.05, around));
+  vec3 left = exp(-(absorption + 2.0) * depth) * (1.0 - 0.25 * smoothstep(0.0, 0.01, depth));
+  if (!close) return left;
+  return left * (1.0 - 0.4 * smoothstep(0.0, 0.05, textureLod(sunThickness, at, 4.0).r));
 }
 
 vec3 skyColor(vec3 direction) {
@@ -48,7 +49,7 @@ vec3 floorAt(vec3 place, float distance, bool lines) {
   vec2 tile = (place.xz - gridOrigin.xz) / gridStep;
   float soft = 0.01 + 0.0025 * distance / gridStep;
   float line = lines ? max(gridLine(tile.x, soft), gridLine(tile.y, soft)) : 0.0;
-  return mix(floorColor, lineColor, line) * (0.4 + 0.6 * sunlightAt(place));
+  return mix(floorColor, lineColor, line) * (0.4 + 0.6 * sunlightAt(place, lines));
 }
 
 vec3 environment(vec3 origin, vec3 direction, bool lines) {

@@ -7,7 +7,7 @@ import {
   DoubleSide,
   HalfFloatType,
   LinearFilter,
-  LinearMipmapLinearFilter,
+  LinearMipmapNearestFilter,
   OneFactor,
   RedFormat,
   ShaderMaterial,
@@ -34,7 +34,7 @@ export class ThicknessPass {
     this.target = new WebGLRenderTarget(1, 1, {
       format: RedFormat,
       type: HalfFloatType,
-      minFilter: blurred ? LinearMipmapLinearFilter : LinearFilter,
+      minFilter: blurred ? LinearMipmapNearestFilter : LinearFilter,
       generateMipmaps: blurred,
       magFilter: LinearFilter,
       depthBuffer: false,

@@ -64,7 +64,9 @@ const fitDirectionTall = new Vector3(0.55, 0.7, 1).normalize();
 const easing = 220;
 /** Parts of the distance: the water may move so far before the camera follows, and so close the camera comes. */
 const slack = 0.04;
-const arrived = 0.002;
+const arrived = 0.005;
+/** ms after which a picture is not the one before the next. */
+const pictureRests = 1000;
 /** Of the mesh's diagonal, at most: the way from one line of the floor to the next. */
 const gridPart = 0.15;
 
@@ -108,9 +110,10 @@ export class Viewer {
   private following: WorldBox | undefined;
   /** From the water to the camera that follows it, in the scene; none: that of fit(). */
   private direction: Vector3 | undefined;
-  /** The place that the camera that follows is on its way to, and the time of its last step there. */
+  /** The place that the camera that follows is on its way to. */
   private goal: CameraPlace | undefined;
-  private steppedAt: number | undefined;
+  /** The time of the last picture, ms. */
+  private drawnAt = -Infinity;
 
   /** Throws if there is no WebGL 2. */
   constructor(
@@ -423,16 +426,15 @@ export class Viewer {
   /** A step of the camera that follows, if it is not there yet. now: ms. */
   private step(now: number): void {
     const { goal, cameraPlace } = this;
-    const since = this.steppedAt === undefined ? 16 : Math.min(100, now - this.steppedAt);
-    this.steppedAt = undefined;
+    const since = now - this.drawnAt;
+    this.drawnAt = now;
     if (!goal || samePlace(goal, cameraPlace)) return;
-    const part = calm.matches ? 1 : 1 - Math.exp(-since / easing);
-    const near = apart(goal, cameraPlace) <= arrived * lengthOf(goal);
+    // Where pictures take long the camera jumps: none is drawn for its way alone.
+    const part = calm.matches ? 1 : 1 - Math.exp(-(since < pictureRests ? since : 16) / easing);
+    const near = (1 - part) * apart(goal, cameraPlace) <= arrived * lengthOf(goal);
     const between = (from: Point, to: Point): Vector3 => this.inScene(from).lerp(this.inScene(to), near ? 1 : part);
     this.controls.place(between(cameraPlace.position, goal.position), between(cameraPlace.target, goal.target));
-    if (near) return;
-    this.steppedAt = now;
-    this.draw();
+    if (!near) this.draw();
   }
 
   get cameraPlace(): CameraPlace {
