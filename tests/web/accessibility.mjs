@@ -102,5 +102,20 @@ describe('the page', { skip: missing }, () => {
     assert.equal(rows, 1);
     await page.evaluate(() => document.getElementById('toolbar').scrollTo(0, 0));
     await screenshot(page, 'phone');
+    // The figures wait until they are asked for.
+    assert.equal(await page.locator('#overlay').isVisible(), false);
+    // A finger that rests on an icon learns its name, and does not press it.
+    const finger = { pointerType: 'touch', bubbles: true };
+    await page.dispatchEvent('#look', 'pointerdown', finger);
+    await page.locator('#hint', { hasText: 'Water or wires (W)' }).waitFor();
+    await page.dispatchEvent('#look', 'pointerup', finger);
+    await page.dispatchEvent('#look', 'click');
+    assert.equal(await page.getAttribute('#look', 'aria-pressed'), 'false');
+    await page.locator('#hint').waitFor({ state: 'hidden' });
+    await page.tap('#look');
+    assert.equal(await page.getAttribute('#look', 'aria-pressed'), 'true');
+    await page.tap('#leave');
+    const field = await page.locator('#search').boundingBox();
+    assert.ok(field.x >= 0 && field.x + field.width <= 360, JSON.stringify(field));
   });
 });

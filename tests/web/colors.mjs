@@ -4,7 +4,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { describe, it } from 'node:test';
 import { missing, screenshot } from './support/browser.mjs';
-import { save } from './support/files.mjs';
+import { readPng, save } from './support/files.mjs';
 import { vertexProperties, verticesOfPly } from './support/meshes.mjs';
 import { run, startServer, startUploader } from './support/programs.mjs';
 import { link, open, surface } from './support/viewer.mjs';
@@ -95,6 +95,23 @@ describe('colors', { skip: missing }, () => {
       await surface(page);
       await colored(page, /^velocity\.y: -1 to 3$/);
       await page.click('#color');
+      await page.fill('#color-unit', 'm/s');
+      await page.keyboard.press('Enter');
+      await colored(page, /^velocity\.y \(m\/s\): -1 to 3$/);
+      // Below all values: without light every point has the map's first color.
+      await page.fill('#color-high', '200');
+      await page.fill('#color-low', '100');
+      await page.keyboard.press('Enter');
+      await colored(page, /: 100 to 200$/);
+      const inTheMiddle = async () => {
+        const { bytes } = await save(page, '#picture');
+        return (await readPng(page, bytes, [[0.4, 0.45]])).colors[0].slice(0, 3);
+      };
+      const plasma = [13, 8, 135];
+      assert.notDeepEqual(await inTheMiddle(), plasma);
+      await page.check('#color-unlit');
+      assert.deepEqual(await inTheMiddle(), plasma);
+      assert.match(page.url(), /&unit=m\/s&light=off/);
       await page.selectOption('#color-attribute', '');
       await page.waitForFunction(() => document.getElementById('annotations').dataset.legend === undefined);
       assert.equal(new URLSearchParams(new URL(page.url()).hash.slice(1)).get('color'), null);

@@ -33,7 +33,10 @@ describe('the viewer in a page of others', { skip: missing }, () => {
   /** With a frame of the viewer. host: one of two names of this machine, which are two origins. */
   async function pageWithFrame(host, server, view) {
     module = await (await fetch(`${server.url}meniscus-frame.js`)).text();
-    const page = await open(`http://${host}:${port}/`);
+    const page = await open();
+    // For tests that do not wait as long as a page does.
+    await page.clock.install();
+    await page.goto(`http://${host}:${port}/`);
     await page.evaluate(
       async ([url, shown]) => {
         const { showMeniscus } = await import('/meniscus-frame.js');
@@ -109,6 +112,10 @@ describe('the viewer in a page of others', { skip: missing }, () => {
       while (!refused()) await page.waitForEvent('console');
       const frame = page.frames().find((one) => one !== page.mainFrame());
       assert.equal(await frame.locator('#view').count(), 0);
+      // A sentence comes in place of the browser's page, which does not say what is wrong.
+      await page.clock.fastForward(10_000);
+      await page.locator('#water > p').getByText(`--web-frame-ancestors http://127.0.0.1:${port}`).waitFor();
+      assert.equal(await page.locator('#water > iframe').isVisible(), false);
       page.errors.length = 0;
     }
   });

@@ -14,6 +14,8 @@ describe('the first surface', { skip: missing }, () => {
     const page = await open(server.url);
     await page.waitForSelector('#no-sessions:not([hidden])');
     await screenshot(page, 'list-empty');
+    const command = await page.locator('#fill-command').innerText();
+    assert.match(command, /^meniscus simulate .* --server 127\.0\.0\.1$/);
     const { session } = startSimulator(server, { particles: 16000 });
     const entry = page.locator(`[data-session="${session}"]`);
     await entry.waitFor();
@@ -96,6 +98,6 @@ describe('the first surface', { skip: missing }, () => {
     assert.equal(await page.inputValue('#scrub'), '0');
     assert.equal(await page.evaluate(() => document.activeElement.id), 'view');
     const { frame } = await shown(page);
-    assert.match(await page.locator('#frame').innerText(), new RegExp(`^${frame.toLocaleString('en-US')} `));
+    assert.match(await page.locator('#frame').innerText(), new RegExp(`^${frame.toLocaleString('en-US')}\\b`));
   });
 });

@@ -45,11 +45,21 @@ describe('errors', { skip: missing }, () => {
     await screenshot(page, 'server-stopped');
   });
 
-  it('say that a session is not there', async () => {
+  it('say that a session is not there, and offer those that are', async () => {
     const server = await startServer();
+    const { session } = await startReplay(server);
     const page = await open(link(server, '00000000-0000-4000-8000-000000000000'));
     await says(page, /There is no such session.*Trying again in/);
+    const offered = page.locator(`#session-offer [data-session="${session}"]`);
+    await offered.waitFor();
+    // Figures of nothing are none.
+    assert.equal(await page.locator('#overlay').isVisible(), false);
     await screenshot(page, 'no-such-session');
+    await offered.click();
+    await surface(page);
+    assert.match(page.url(), new RegExp(`#session=${session}`));
+    assert.equal(await page.locator('#session-offer').isVisible(), false);
+    assert.equal(await page.locator('#overlay').isVisible(), true);
   });
 
   it('ask for the token that the server wants, again if it is wrong, and after a no', async () => {
@@ -65,10 +75,13 @@ describe('errors', { skip: missing }, () => {
       await screenshot(page, 'token');
       await page.fill('#token', 'wrong-token-0123456789');
       await page.keyboard.press('Enter');
-      await page.waitForFunction(
-        () => document.getElementById('token-dialog').open && document.getElementById('token').value === '',
-      );
-      await page.keyboard.press('Escape');
+      // What was entered stays, to be mended; what is wrong is said once.
+      await page.locator('#token-heading', { hasText: 'Another token is needed' }).waitFor();
+      assert.equal(await page.inputValue('#token'), 'wrong-token-0123456789');
+      assert.equal(await page.getByText('The server does not know this token.').filter({ visible: true }).count(), 1);
+      assert.equal(await page.locator('#banner').isVisible(), false);
+      await page.click('#token-cancel');
+      await page.waitForSelector('#token-dialog', { state: 'hidden' });
       await says(page, /does not know this token/);
       await screenshot(page, 'token-refused');
       await page.click('#ask-token');

@@ -20,6 +20,7 @@ import { download } from './ui/download';
 import { toggleFullScreen } from './ui/full_screen';
 import { Heading } from './ui/heading';
 import { readLink, writeLink, type PageState } from './ui/link';
+import { nameOnLongPress } from './ui/long_press';
 import { Overlay } from './ui/overlay';
 import { element } from './ui/page';
 import { coveredMargins } from './ui/panels';
@@ -27,6 +28,7 @@ import { Playback } from './ui/playback';
 import { RecordingList } from './ui/recording_list';
 import { RecordingOffer } from './ui/recording_offer';
 import { SessionList } from './ui/session_list';
+import { SessionOffer } from './ui/session_offer';
 import { followTheme } from './ui/theme';
 import { Tools } from './tools/tools';
 import { askToken, storedToken } from './ui/token_dialog';
@@ -38,9 +40,15 @@ export class App {
     wantedCodecs(location),
   );
   private readonly banner = new Banner();
-  private readonly heading = new Heading(this.server);
+  private readonly heading = new Heading(this.server, (live) => {
+    this.streaming = live;
+    this.showWhatApplies();
+  });
   private readonly offer = new RecordingOffer(this.server, (recording) => {
     this.go({ recording });
+  });
+  private readonly sessionOffer = new SessionOffer(this.server, (session) => {
+    this.go(session === undefined ? {} : { session });
   });
   /** Set where the viewer is to show the water alone. */
   private readonly embedding = readEmbedding(location.search);
@@ -57,10 +65,15 @@ export class App {
   private at: Pick<PageState, 'session' | 'recording' | 'position'> = {};
   private look: Look = 'water';
   private particles = false;
+  /** Whether the session that is shown is being streamed. */
+  private streaming = false;
+  private watchKind: WatchState['kind'] = 'connecting';
   /** From the link, for the first picture. */
   private linked: PageState = {};
   /** Whether nothing is tried any more. */
   private watchIsOver = false;
+  /** Why a token is needed. */
+  private tokenReason = '';
   /** Whether the last state that the page around handed over cannot be. */
   private handingFailed = false;
 
@@ -69,7 +82,7 @@ export class App {
     if (this.embedding) this.embed(this.embedding.page);
     else this.server.token = storedToken();
     const pool = startDecodePool();
-    const painter = new ThumbnailPainter(this.server, pool);
+    const painter = new ThumbnailPainter(pool);
     this.viewer = new Viewer(this.canvas, () => coveredMargins(this.canvas), {
       rendered: () => {
         this.tools.rendered();
@@ -152,7 +165,7 @@ export class App {
         this.writeAddress();
       },
     });
-    this.recordings = new RecordingList(this.server, (recording) => {
+    this.recordings = new RecordingList(this.server, painter, (recording) => {
       this.go({ recording });
     });
     this.list = new SessionList(this.server, painter, this.banner, {
@@ -165,8 +178,12 @@ export class App {
       this.tools.setTheme(theme);
       painter.setTheme(theme);
       this.list.themeChanged();
+      this.recordings.themeChanged();
     });
     this.bindControls();
+    // There they take half of the picture.
+    if (matchMedia('(max-width: 640px)').matches) this.showFigures(false);
+    nameOnLongPress(element('toolbar', HTMLElement), element('hint', HTMLElement));
     addEventListener('popstate', () => {
       this.open(readLink(location.hash));
     });
@@ -194,6 +211,7 @@ export class App {
     delete this.canvas.dataset.frame;
     delete this.canvas.dataset.triangles;
     delete this.canvas.dataset.particles;
+    this.watchKind = 'connecting';
     this.banner.say('');
     const watching = this.looking;
     element('watch', HTMLElement).hidden = !watching;
@@ -202,6 +220,7 @@ export class App {
     else if (state.session !== undefined) this.heading.showSession(state.session);
     else this.heading.showNothing();
     this.offer.withdraw();
+    this.sessionOffer.withdraw();
     this.inPlaceOfPicture('');
     // The water alone.
     this.tools.open(this.embedding ? { ...state, scale: 'off', domain: 'off' } : state);
@@ -253,12 +272,16 @@ export class App {
 
   private watchState(state: WatchState): void {
     this.canvas.dataset.state = state.kind;
+    this.watchKind = state.kind;
+    this.showWhatApplies();
     this.watchIsOver = state.kind === 'token' || state.kind === 'refused';
     this.banner.watching(state);
     this.heading.watching(state);
     if (state.kind === 'ended' || state.kind === 'absent') {
       if (!this.embedding && this.at.session !== undefined) void this.offer.offer(this.at.session);
     } else if (state.kind !== 'connecting') this.offer.withdraw();
+    if (state.kind === 'absent' && !this.embedding && !this.screen.shown) void this.sessionOffer.offer();
+    else if (state.kind !== 'connecting') this.sessionOffer.withdraw();
     this.tools.watchState(state);
     if (!this.screen.shown)
       this.inPlaceOfPicture(
@@ -269,6 +292,11 @@ export class App {
             : '',
       );
     if (state.kind === 'token') void this.tokenNeeded(state.reason);
+  }
+
+  private showWhatApplies(): void {
+    const playing = this.at.recording !== undefined && this.watchKind === 'live';
+    this.screen.overlay.setSeen(this.streaming ? 'stream' : playing ? 'playing' : 'resting');
   }
 
   private cameraMoving(moving: boolean): void {
@@ -285,9 +313,14 @@ export class App {
       this.banner.say(reason);
       return;
     }
-    this.banner.tokenNeeded(reason);
-    const token = await askToken(reason);
-    if (token === undefined) return;
+    if (reason !== '') this.tokenReason = reason;
+    // The dialog says it.
+    this.banner.say('');
+    const token = await askToken(this.server.token !== '', this.tokenReason);
+    if (token === undefined) {
+      this.banner.tokenNeeded(this.tokenReason);
+      return;
+    }
     this.server.token = token;
     this.banner.say('');
     if (this.at.recording) this.recordingView.restart();
@@ -347,7 +380,7 @@ export class App {
       full: () => void toggleFullScreen().catch(() => undefined),
       'ask-token': () => void this.tokenNeeded(''),
       measure: () => {
-        this.toggleOverlay();
+        this.showFigures(element('overlay', HTMLElement).hidden);
       },
       glb: () => {
         this.save('glb', 'model/gltf-binary');
@@ -382,10 +415,9 @@ export class App {
     button.setAttribute('aria-pressed', String(this.particles));
   }
 
-  private toggleOverlay(): void {
-    const overlay = element('overlay', HTMLElement);
-    overlay.hidden = !overlay.hidden;
-    element('measure', HTMLButtonElement).setAttribute('aria-pressed', String(!overlay.hidden));
+  private showFigures(shown: boolean): void {
+    element('overlay', HTMLElement).hidden = !shown;
+    element('measure', HTMLButtonElement).setAttribute('aria-pressed', String(shown));
     this.viewer.resize();
   }
 

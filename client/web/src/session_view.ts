@@ -123,6 +123,8 @@ export class SessionView {
   /** The frame's first picture has been drawn. */
   frameDrawn(frame: Frame): void {
     if (!this.watch || this.playback.paused) return;
+    const at = this.history.frames.indexOf(frame);
+    if (at >= 0) this.playback.moveTo(at);
     this.skipped.shown(frame);
     this.screen.overlay.liveFrameDrawn(frame, this.skipped.count, this.server.roundTrip);
   }
@@ -137,7 +139,9 @@ export class SessionView {
       choose: (at) => {
         this.screen.show(frames[at]!);
       },
-      paused: () => {
+      paused: (paused) => {
+        // What came last is drawn yet.
+        if (paused && frames.length > 0) this.playback.moveTo(frames.length - 1);
         this.pauseOrResume();
       },
       resume: 'Resume',
@@ -147,7 +151,6 @@ export class SessionView {
   private take(frame: Frame): void {
     this.link.add(frame, this.quality === 'full');
     this.history.add(frame);
-    this.playback.moveTo(this.playback.paused ? this.playback.at : this.history.frames.length - 1);
     this.screen.show(frame);
     this.adjustQuality();
   }

@@ -69,11 +69,11 @@ describe('the viewer in a frame', () => {
 
   it('takes what the surface is colored by', () => {
     hear(message({ color: 'velocity.x', map: 'magma', range: [0, 5] }));
-    hear(message({ number: 3, color: 'age' }));
+    hear(message({ number: 3, color: 'age', unit: 's', light: 'off' }));
     hear(message({ number: 4, map: 'magma' }));
     expect(shown.map(({ state }) => state.color)).toEqual([
-      { attribute: 'velocity', component: 'x', map: 'magma', range: [0, 5] },
-      { attribute: 'age', map: 'viridis', range: 'session' },
+      { attribute: 'velocity', component: 'x', map: 'magma', range: [0, 5], unit: '', unlit: false },
+      { attribute: 'age', map: 'viridis', range: 'session', unit: 's', unlit: true },
       undefined,
     ]);
   });
@@ -109,6 +109,9 @@ describe('the viewer in a frame', () => {
     ['map', { color: 'age', map: 'jet' }],
     ['range', { color: 'age', range: [5, 0] }],
     ['range', { color: 'age', range: 'all' }],
+    ['unit', { color: 'age', unit: 'metres per second' }],
+    ['unit', { color: 'age', unit: 5 }],
+    ['light', { color: 'age', light: true }],
     ['token', { token: 'a\r\nb' }],
     ['token', { token: 7 }],
   ])('refuses in words a %s that cannot be', (name, changes) => {
@@ -126,11 +129,13 @@ describe('the page around', () => {
   const attributes = new Map<string, string>();
   const iframe = {
     src: '',
-    style: {},
+    style: { display: '' },
+    after: vi.fn(),
     contentWindow: frameWindow,
     setAttribute: (name: string, value: string) => attributes.set(name, value),
     remove: vi.fn(),
   };
+  const sentence = { style: {}, textContent: '', setAttribute: () => undefined, remove: vi.fn() };
   const place = { replaceChildren: vi.fn() } as unknown as Element;
   let listener: ((event: MessageEvent<unknown>) => void) | undefined;
   let frame: MeniscusFrame;
@@ -141,8 +146,9 @@ describe('the page around', () => {
     vi.useFakeTimers();
     warned.mockReset().mockImplementation(() => undefined);
     frameWindow.postMessage.mockClear();
+    iframe.after.mockClear();
     vi.stubGlobal('location', { origin: page });
-    vi.stubGlobal('document', { createElement: () => iframe });
+    vi.stubGlobal('document', { createElement: (name: string) => (name === 'iframe' ? iframe : sentence) });
     vi.stubGlobal('addEventListener', (_: string, listen: typeof listener) => (listener = listen));
     vi.stubGlobal('removeEventListener', () => (listener = undefined));
     frame = showMeniscus(place, `${viewer}/x?y`, { session, camera, token: 'secret' });
@@ -171,8 +177,11 @@ describe('the page around', () => {
     expect(posted()).toEqual([[message, viewer]]);
     frame.show({ session: other });
     expect(posted()[1]).toEqual([{ meniscus: 'show', nonce: 'one', number: 2, session: other, token: '' }, viewer]);
-    frame.show({ session: other, color: 'velocity', map: 'magma', range: 'frame' });
-    expect(posted()[2]).toMatchObject([{ number: 3, color: 'velocity', map: 'magma', range: 'frame' }, viewer]);
+    frame.show({ session: other, color: 'velocity', map: 'magma', range: 'frame', unit: 'm/s', light: 'off' });
+    expect(posted()[2]).toMatchObject([
+      { number: 3, color: 'velocity', map: 'magma', range: 'frame', unit: 'm/s', light: 'off' },
+      viewer,
+    ]);
     // Loaded again.
     hear('two');
     expect(posted()[3]).toMatchObject([{ nonce: 'two', number: 4, session: other }, viewer]);
@@ -200,6 +209,13 @@ describe('the page around', () => {
     const failure = frame.ready.catch((error: unknown) => String(error));
     await vi.advanceTimersByTimeAsync(10_000);
     expect(await failure).toContain(`--web-frame-ancestors ${page}`);
+    expect(iframe.after).toHaveBeenCalledExactlyOnceWith(sentence);
+    expect(sentence.textContent).toContain(`--web-frame-ancestors ${page}`);
+    expect(iframe.style.display).toBe('none');
+    // A viewer that comes late takes its place.
+    hear('late');
+    expect(sentence.remove).toHaveBeenCalled();
+    expect(iframe.style.display).toBe('block');
     frame.remove();
     expect(listener).toBeUndefined();
     expect(iframe.remove).toHaveBeenCalled();

@@ -43,20 +43,19 @@ describe('the link', () => {
     const { session } = state;
     const by = (color: Parameters<typeof writeLink>[0]['color']): string =>
       writeLink({ session, ...(color ? { color } : {}) });
+    const plain = { map: 'viridis', range: 'session', unit: '', unlit: false } as const;
     const cases = {
-      '&color=velocity': { attribute: 'velocity', map: 'viridis', range: 'session' },
-      '&color=velocity.x&range=frame': { attribute: 'velocity', component: 'x', map: 'viridis', range: 'frame' },
-      '&color=age&map=magma&range=-0.5,1e-7': { attribute: 'age', map: 'magma', range: [-0.5, 1e-7] },
+      '&color=velocity': { ...plain, attribute: 'velocity' },
+      '&color=velocity.x&range=frame': { ...plain, attribute: 'velocity', component: 'x', range: 'frame' },
+      '&color=age&map=magma&range=-0.5,1e-7': { ...plain, attribute: 'age', map: 'magma', range: [-0.5, 1e-7] },
+      '&color=velocity&unit=m/s&light=off': { ...plain, attribute: 'velocity', unit: 'm/s', unlit: true },
     } as const;
     for (const [text, color] of Object.entries(cases)) {
       expect(by(color)).toBe(`#session=${session}${text}`);
       expect(readLink(by(color))).toEqual({ session, color });
     }
-    expect(readLink('#color=age&map=jet&range=5,0').color).toEqual({
-      attribute: 'age',
-      map: 'viridis',
-      range: 'session',
-    });
+    for (const wrong of ['map=jet&range=5,0', `unit=${'x'.repeat(17)}`, 'unit=m%07s&light=on', 'unit=a%E2%80%AEb'])
+      expect(readLink(`#color=age&${wrong}`).color).toEqual({ ...plain, attribute: 'age' });
     for (const text of ['', 'Velocity', 'velocity.q', 'a b', 'x'.repeat(65), 'velocity.x.y'])
       expect(readLink(`#color=${text}&map=magma&range=0,5`).color).toBeUndefined();
   });

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { ageText, rateText, volumeText } from '../src/ui/texts';
+import { ageText, frameText, rateText, volumeText } from '../src/ui/texts';
 
 describe('a volume', () => {
   it('has three digits at any scale, and its ratio to the particles beside it', () => {
@@ -23,4 +23,9 @@ it('a rate has a digit behind the point where it is slow', () => {
     '10 frames/s',
     '240 frames/s',
   ]);
+});
+
+it('a frame has its time, unless its simulator gives none', () => {
+  expect(frameText({ index: 12n, simulationTime: 0.216 })).toBe('frame 12, 0.22 s');
+  expect(frameText({ index: 12n, simulationTime: 0 })).toBe('frame 12');
 });

@@ -13,20 +13,29 @@ export interface ColorChoice {
   readonly component?: ComponentName;
   readonly map: ColorMap;
   readonly range: RangeChoice;
+  /** Of the numbers, in the legend; empty: none is known. */
+  readonly unit: string;
+  /** Whether the surface has exactly the colors of the legend, and no light that shows its shape. */
+  readonly unlit: boolean;
 }
 
+/** A choice, but for what it is of. */
+export type ColorLook = Omit<ColorChoice, 'attribute' | 'component'>;
+
+/** Characters of a unit. */
+export const longestUnit = 16;
 const firstMap: ColorMap = 'viridis';
 const form = /^([a-z0-9_]{1,64})(?:\.([xyzw]))?$/;
 
 /** Without a map it is viridis, without a range that of the session. None if the text names no attribute that can be. */
 export function colorBy(
   text: string,
-  map: ColorMap = firstMap,
-  range: RangeChoice = 'session',
+  { map = firstMap, range = 'session', unit = '', unlit = false }: Partial<ColorLook> = {},
 ): ColorChoice | undefined {
   const [, attribute, component] = form.exec(text) ?? [];
   if (attribute === undefined) return undefined;
-  return { attribute, ...(component === undefined ? {} : { component: component as ComponentName }), map, range };
+  const look = { map, range, unit, unlit };
+  return { attribute, ...(component === undefined ? {} : { component: component as ComponentName }), ...look };
 }
 
 /** NAME or NAME.COMPONENT. */
@@ -37,7 +46,13 @@ export function colorText({ attribute, component }: Pick<ColorChoice, 'attribute
 /** A field that cannot be read is as if it were not there. */
 export function readColorLink(fields: URLSearchParams): ColorChoice | undefined {
   const map = fields.get('map') ?? '';
-  return colorBy(fields.get('color') ?? '', isColorMap(map) ? map : undefined, readRange(fields.get('range')));
+  const range = readRange(fields.get('range'));
+  return colorBy(fields.get('color') ?? '', {
+    ...(isColorMap(map) ? { map } : {}),
+    ...(range ? { range } : {}),
+    unit: readUnit(fields.get('unit') ?? '') ?? '',
+    unlit: fields.get('light') === 'off',
+  });
 }
 
 export function writeColorLink(fields: URLSearchParams, choice: ColorChoice): void {
@@ -45,6 +60,14 @@ export function writeColorLink(fields: URLSearchParams, choice: ColorChoice): vo
   if (choice.map !== firstMap) fields.set('map', choice.map);
   if (choice.range !== 'session')
     fields.set('range', typeof choice.range === 'string' ? choice.range : choice.range.join(','));
+  if (choice.unit !== '') fields.set('unit', choice.unit);
+  if (choice.unlit) fields.set('light', 'off');
+}
+
+/** None where it is too long, or has characters that cannot be seen. */
+export function readUnit(text: string): string | undefined {
+  const unit = text.trim();
+  return unit.length <= longestUnit && !/[\p{C}\p{Zl}\p{Zp}]/u.test(unit) ? unit : undefined;
 }
 
 export function isRange(value: unknown): value is readonly [number, number] {

@@ -15,13 +15,17 @@ export interface View {
   readonly map?: 'viridis' | 'magma' | 'plasma' | 'cividis' | 'coolwarm';
   /** The values at the ends of the map: without it the least and the greatest of the session so far. */
   readonly range?: 'frame' | 'session' | readonly [number, number];
+  /** Of the numbers, for the legend, as "m/s": at most 16 characters. */
+  readonly unit?: string;
+  /** Exactly the colors of the legend, without the light that shows the shape. */
+  readonly light?: 'off';
   /** Where the server asks for one: of the role watcher, since every script of the page can read it. */
   readonly token?: string;
 }
 
 export interface MeniscusFrame {
   readonly element: HTMLIFrameElement;
-  /** Resolves when the viewer listens; rejects, with a warning on the console, when it has not within ten seconds. */
+  /** Resolves when the viewer listens; rejects when it has not within ten seconds: then a sentence is in place of the frame, and on the console. */
   readonly ready: Promise<void>;
   /** Another session, camera or token; what is left out is as at the beginning. */
   show(view: View): void;
@@ -51,7 +55,7 @@ export function showMeniscus(place: Element, server: string, view: View): Menisc
 
   const handOver = (): void => {
     if (nonce === undefined) return;
-    const { session, camera, look, up, color, map, range, token = '' } = shown;
+    const { session, camera, look, up, color, map, range, unit, light, token = '' } = shown;
     const message: Show = {
       meniscus: 'show',
       nonce,
@@ -63,6 +67,8 @@ export function showMeniscus(place: Element, server: string, view: View): Menisc
       ...(color === undefined ? {} : { color }),
       ...(map ? { map } : {}),
       ...(range ? { range } : {}),
+      ...(unit === undefined ? {} : { unit }),
+      ...(light ? { light } : {}),
       token,
     };
     // Whatever else the frame may hold by now does not hear it.
@@ -71,10 +77,17 @@ export function showMeniscus(place: Element, server: string, view: View): Menisc
   const listen = ({ data, origin, source }: MessageEvent<unknown>): void => {
     if (origin !== viewer || source !== element.contentWindow || !isReady(data)) return;
     nonce = data.nonce;
+    // Also one that comes late.
+    problem.remove();
+    element.style.display = 'block';
     listens();
     handOver();
   };
   addEventListener('message', listen);
+  // In place of the browser's own page, which says that something is broken and not what.
+  const problem = document.createElement('p');
+  problem.setAttribute('role', 'alert');
+  problem.style.cssText = 'margin: 0; padding: 1em; overflow-wrap: anywhere';
   let timer: ReturnType<typeof setTimeout>;
   const late = new Promise<void>((_, reject) => {
     timer = setTimeout(() => {
@@ -90,7 +103,10 @@ export function showMeniscus(place: Element, server: string, view: View): Menisc
   });
   // A page that does not wait for `ready` gets a warning, not an error without a handler.
   ready.catch((error: unknown) => {
-    console.warn(error instanceof Error ? error.message : error);
+    problem.textContent = error instanceof Error ? error.message : String(error);
+    console.warn(problem.textContent);
+    element.style.display = 'none';
+    element.after(problem);
   });
   element.src = `${viewer}/?embed=${encodeURIComponent(location.origin)}`;
   place.replaceChildren(element);
@@ -105,6 +121,7 @@ export function showMeniscus(place: Element, server: string, view: View): Menisc
       removeEventListener('message', listen);
       clearTimeout(timer);
       element.remove();
+      problem.remove();
     },
   };
 }

@@ -2,7 +2,7 @@
 //
 // The viewer begins, each time that it is loaded, with a number drawn at random. What the page answers carries it, and a number
 // that rises: so nothing that was said before, to this viewer or to one before it, can be said again by another.
-import { colorBy, isRange, type ColorChoice } from '../color/color_choice';
+import { colorBy, isRange, longestUnit, readUnit, type ColorChoice, type ColorLook } from '../color/color_choice';
 import { colorMapNames, isColorMap } from '../color/color_maps';
 import { isSessionId, type PageState } from '../ui/link';
 
@@ -30,6 +30,10 @@ export interface Show {
   readonly map?: string;
   /** The range of each frame, that of the session so far, or two numbers; without one that of the session so far. */
   readonly range?: 'frame' | 'session' | readonly [number, number];
+  /** Of the numbers, in the legend. */
+  readonly unit?: string;
+  /** Exactly the colors of the legend, without light. */
+  readonly light?: 'off';
   /** Empty: none. */
   readonly token: string;
 }
@@ -50,7 +54,7 @@ export function isShow(data: unknown): data is { readonly nonce: unknown; readon
 
 /** Throws Error with a sentence where the page has handed over something that cannot be. */
 export function readShow(data: unknown): HandedOver {
-  const { session, camera, look, up, color, map, range, token } = data as Record<string, unknown>;
+  const { session, camera, look, up, color, map, range, unit, light, token } = data as Record<string, unknown>;
   if (typeof session !== 'string' || !isSessionId(session)) throw wrong('session', session, 'a UUID');
   if (typeof token !== 'string' || !/^[\x21-\x7e]{0,4096}$/.test(token))
     // It is not shown: it may be a token with a slip in it.
@@ -60,7 +64,7 @@ export function readShow(data: unknown): HandedOver {
   if (look !== undefined && look !== 'water' && look !== 'levels') throw wrong('look', look, '"water" or "levels"');
   if (up !== undefined && up !== 'x' && up !== 'y' && up !== 'z') throw wrong('up', up, '"x", "y" or "z"');
   const place = readCamera(camera);
-  const choice = readColor(color, map, range);
+  const choice = readColor(color, map, range, unit, light);
   return {
     state: {
       session,
@@ -81,13 +85,28 @@ function readCamera(camera: unknown): PageState['camera'] {
   return { position: [...position], target: [...target] };
 }
 
-function readColor(color: unknown, map: unknown, range: unknown): ColorChoice | undefined {
+function readColor(
+  color: unknown,
+  map: unknown,
+  range: unknown,
+  unit: unknown,
+  light: unknown,
+): ColorChoice | undefined {
   if (map !== undefined && (typeof map !== 'string' || !isColorMap(map)))
     throw wrong('map', map, `one of ${colorMapNames.join(', ')}`);
   if (range !== undefined && range !== 'frame' && range !== 'session' && !isRange(range))
     throw wrong('range', range, '"frame", "session" or [from, to], from less than to');
+  const inUnit = unit === undefined ? '' : typeof unit === 'string' ? readUnit(unit) : undefined;
+  if (inUnit === undefined) throw wrong('unit', unit, `text of at most ${longestUnit} characters`);
+  if (light !== undefined && light !== 'off') throw wrong('light', light, '"off"');
   if (color === undefined) return undefined;
-  const choice = typeof color === 'string' ? colorBy(color, map, range) : undefined;
+  const look: Partial<ColorLook> = {
+    ...(map ? { map } : {}),
+    ...(range ? { range } : {}),
+    unit: inUnit,
+    unlit: light === 'off',
+  };
+  const choice = typeof color === 'string' ? colorBy(color, look) : undefined;
   if (!choice) throw wrong('color', color, 'the name of an attribute, or of its component, as "velocity.x"');
   return choice;
 }

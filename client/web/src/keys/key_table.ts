@@ -26,7 +26,7 @@ export const keyTable = [
   { action: 'turn', keys: arrows, shown: 'Arrows', words: 'turn the camera', repeats: true },
   { action: 'shift', keys: arrows, shift: true, shown: 'Shift and arrows', words: 'shift it', repeats: true },
   { action: 'zoom', keys: ['+', '=', '-'], shown: 'Plus, minus', words: 'zoom', repeats: true },
-  { button: 'fit', keys: ['f'], shown: 'F', words: 'keep all of the water in view' },
+  { button: 'fit', keys: ['f'], shown: 'F', words: 'follow the water' },
   { button: 'look', keys: ['w'], shown: 'W', words: 'water or wires' },
   { button: 'show-particles', keys: ['p'], shown: 'P', words: 'particles in place of the surface' },
   { button: 'view-x', keys: ['x'], shown: 'X', words: 'look along X; again: from the other side' },

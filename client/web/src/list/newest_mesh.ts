@@ -21,7 +21,7 @@ export async function newestMesh(
 }
 
 /** Its one frame. The call is read to its end, which follows at once: one that is broken off costs its connection. */
-async function frameOf(answers: AsyncIterable<Received<WatchResponse>>): Promise<Frame | undefined> {
+export async function frameOf(answers: AsyncIterable<Received<WatchResponse>>): Promise<Frame | undefined> {
   const receiver = new FrameReceiver();
   let frame: Frame | undefined;
   for await (const { message, bytes } of answers) frame = receiver.take(message, bytes, performance.now()) ?? frame;

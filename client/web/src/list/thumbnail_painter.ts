@@ -1,11 +1,10 @@
 // Draws meshes small, with the viewer's own picture, on a canvas that nobody sees.
 import type { Shown } from '../bricks/brick_store';
+import type { Frame } from '../bricks/frame';
 import type { DecodePool } from '../decode/decode_pool';
-import type { Server } from '../rpc/server';
 import type { Theme } from '../view/environment';
 import type { UpAxis } from '../view/up_axis';
 import { Viewer } from '../view/viewer';
-import { newestMesh } from './newest_mesh';
 
 const noMargins = { top: 0, right: 0, bottom: 0 };
 
@@ -16,10 +15,7 @@ export class ThumbnailPainter {
   private theme: Theme = 'light';
   private target: HTMLCanvasElement | undefined;
 
-  constructor(
-    private readonly server: Server,
-    private readonly pool: DecodePool,
-  ) {
+  constructor(private readonly pool: DecodePool) {
     this.canvas.className = 'painting';
     this.canvas.setAttribute('aria-hidden', 'true');
   }
@@ -30,9 +26,9 @@ export class ThumbnailPainter {
     this.viewer?.setTheme(theme);
   }
 
-  /** Draws the session's newest mesh. Throws RpcError, and Error where the browser cannot. */
-  async draw(session: string, up: UpAxis, target: HTMLCanvasElement, signal: AbortSignal): Promise<void> {
-    const shown = await this.newest(session, signal);
+  /** Draws the frame; nothing where there is none. Throws Error where the browser cannot. */
+  async draw(frame: Frame | undefined, up: UpAxis, target: HTMLCanvasElement, signal: AbortSignal): Promise<void> {
+    const shown = frame && (await this.decode(frame));
     if (!shown || shown.bricks.size === 0 || signal.aborted) return;
     const viewer = this.start();
     this.target = target;
@@ -45,9 +41,7 @@ export class ThumbnailPainter {
     viewer.clear();
   }
 
-  private async newest(sessionId: string, signal: AbortSignal): Promise<Shown | undefined> {
-    const frame = await newestMesh((maxLevel) => this.server.snapshot({ sessionId, maxLevel }, signal));
-    if (!frame) return undefined;
+  private async decode(frame: Frame): Promise<Shown> {
     const bricks = await Promise.all(
       [...frame.bricks].map(
         async ([key, encoded]) =>

@@ -73,6 +73,8 @@ export class RecordingView {
   frameDrawn(frame: Frame): void {
     if (!this.frames) return;
     this.drawnAt = performance.now();
+    // While it is paused the slider is a person's.
+    if (!this.playback.paused && frame === this.frames.at(this.position)) this.playback.moveTo(this.position);
     if (!this.playback.paused) this.screen.overlay.framePlayed(frame);
     this.goOn();
   }
@@ -119,13 +121,15 @@ export class RecordingView {
       length: frames.length,
       describe: (at) => {
         const frame = frames.at(at);
-        return frame ? frameText(frame) : `${at + 1} of ${frames.length}`;
+        return frame ? frameText(frame) : 'loading';
       },
       choose: (at) => {
         this.show(at);
       },
       paused: (paused) => {
         this.reportState();
+        // That one is drawn yet.
+        if (paused) this.playback.moveTo(this.position);
         if (paused) this.events.restsAt(this.position);
         else if (this.position > 0 && this.position === frames.length - 1) this.show(0);
         else this.goOn();
@@ -137,15 +141,18 @@ export class RecordingView {
   private show(position: number): void {
     clearTimeout(this.timer);
     this.position = position;
-    this.playback.moveTo(position);
-    if (this.playback.paused) this.events.restsAt(position);
+    if (this.playback.paused) {
+      this.playback.moveTo(position);
+      this.events.restsAt(position);
+    }
     this.frames?.show(position);
   }
 
   private take(frame: Frame, position: number): void {
     this.backoff.reset();
     this.reportState();
-    this.playback.moveTo(position);
+    // Its number is known now.
+    if (this.playback.paused) this.playback.moveTo(position);
     this.screen.show(frame);
   }
 

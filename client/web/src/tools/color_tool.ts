@@ -1,7 +1,15 @@
 // The color of the surface: the choice of a quantity, its panel, and the consequences for each picture.
 import type { VertexAttribute } from '../bricks/attributes';
 import type { Shown } from '../bricks/brick_store';
-import { colorText, componentNames, isRange, type ColorChoice, type ComponentName } from '../color/color_choice';
+import {
+  colorText,
+  componentNames,
+  isRange,
+  readUnit,
+  type ColorChoice,
+  type ColorLook,
+  type ComponentName,
+} from '../color/color_choice';
 import { colorMapNames, isColorMap, isDiverging } from '../color/color_maps';
 import { Quantity } from '../color/quantity';
 import { aroundZero, rangeText, unionOfRanges, type ValueRange } from '../color/value_range';
@@ -36,6 +44,8 @@ export class ColorTool {
   private readonly mapSelect = element('color-map', HTMLSelectElement);
   private readonly rangeSelect = element('color-range', HTMLSelectElement);
   private readonly ends = [element('color-low', HTMLInputElement), element('color-high', HTMLInputElement)] as const;
+  private readonly unit = element('color-unit', HTMLInputElement);
+  private readonly unlit = element('color-unlit', HTMLInputElement);
   private current: ColorChoice | undefined;
   /** The quantity of the choice, once a frame has announced the attribute. */
   private quantity: Quantity | undefined;
@@ -53,9 +63,9 @@ export class ColorTool {
     });
     this.componentSelect.addEventListener('change', () => {
       if (!this.current) return;
-      const { attribute, map, range } = this.current;
+      const { attribute, map, range, unit, unlit } = this.current;
       const component = componentNames.find((name) => name === this.componentSelect.value);
-      this.choose({ attribute, map, range, ...(component ? { component } : {}) });
+      this.choose({ attribute, map, range, unit, unlit, ...(component ? { component } : {}) });
     });
     this.mapSelect.addEventListener('change', () => {
       if (this.current && isColorMap(this.mapSelect.value)) this.choose({ ...this.current, map: this.mapSelect.value });
@@ -65,6 +75,13 @@ export class ColorTool {
       if (!this.current) return;
       if (value !== 'hand') this.choose({ ...this.current, range: value === 'frame' ? 'frame' : 'session' });
       else this.choose({ ...this.current, range: this.byHand() });
+    });
+    this.unit.addEventListener('change', () => {
+      const unit = readUnit(this.unit.value);
+      if (this.current && unit !== undefined) this.choose({ ...this.current, unit });
+    });
+    this.unlit.addEventListener('change', () => {
+      if (this.current) this.choose({ ...this.current, unlit: this.unlit.checked });
     });
     for (const end of this.ends)
       end.addEventListener('change', () => {
@@ -117,7 +134,8 @@ export class ColorTool {
   legend(viewer: Viewer): ColorLegend | undefined {
     const { quantity, current, range } = this;
     if (!quantity || !current || !viewer.colored) return undefined;
-    return { title: quantity.title, ...(range ? { scale: { map: current.map, range } } : {}) };
+    const title = current.unit === '' ? quantity.title : `${quantity.title} (${current.unit})`;
+    return { title, ...(range ? { scale: { map: current.map, range } } : {}) };
   }
 
   /** At a place of the picture; none where it is not colored. */
@@ -125,7 +143,9 @@ export class ColorTool {
     const { quantity, range } = this;
     if (!quantity || !viewer.colored) return undefined;
     const extent = range ? range.high - range.low : 0;
-    return { title: quantity.title, text: spot && quantity.textAt(spot.brick, spot.points, spot.weights, extent) };
+    const text = spot && quantity.textAt(spot.brick, spot.points, spot.weights, extent);
+    const unit = this.current?.unit ?? '';
+    return { title: quantity.title, text: text === undefined || unit === '' ? text : `${text} ${unit}` };
   }
 
   private choose(choice: ColorChoice | undefined): void {
@@ -133,10 +153,10 @@ export class ColorTool {
     this.events.changed();
   }
 
-  /** Map and range of the choice, for another attribute: numbers by hand were meant for this one. */
-  private other(): Omit<ColorChoice, 'attribute'> {
-    const { map, range } = this.current ?? { map: colorMapNames[0], range: 'session' as const };
-    return { map, range: typeof range === 'string' ? range : 'session' };
+  /** The look of the choice, for another attribute: numbers by hand, and a unit, were meant for this one. */
+  private other(): ColorLook {
+    const { map, range, unlit } = this.current ?? { map: colorMapNames[0], range: 'session' as const, unlit: false };
+    return { map, range: typeof range === 'string' ? range : 'session', unit: '', unlit };
   }
 
   /** To begin with, what is there. */
@@ -180,7 +200,7 @@ export class ColorTool {
 
   private coloring(): Coloring | undefined {
     const { quantity, current, range } = this;
-    return quantity && current && { quantity, map: current.map, range };
+    return quantity && current && { quantity, map: current.map, range, unlit: current.unlit };
   }
 
   private setPanel(open: boolean): void {
@@ -196,7 +216,13 @@ export class ColorTool {
     this.showComponents(scaled ? attribute : undefined);
     for (const select of [this.mapSelect, this.rangeSelect]) select.parentElement!.hidden = !scaled;
     this.showRange(scaled ? this.current?.range : undefined);
-    if (this.current) this.mapSelect.value = this.current.map;
+    element('color-unit-row', HTMLElement).hidden = !scaled;
+    element('color-unlit-row', HTMLElement).hidden = !this.current;
+    if (this.current) {
+      this.mapSelect.value = this.current.map;
+      if (this.unit !== document.activeElement) this.unit.value = this.current.unit;
+      this.unlit.checked = this.current.unlit;
+    }
     this.writeRange();
     const absent = frame !== undefined && this.current !== undefined && !attribute;
     if (absent && !this.absenceShown) {
@@ -214,7 +240,10 @@ export class ColorTool {
     const before = [...this.attributeSelect.options].slice(1).map(({ value }) => value);
     // A list that is open stays so.
     if (before.length === 0 || names.join() !== before.join())
-      this.attributeSelect.replaceChildren(new Option('Nothing: water', ''), ...names.map((name) => new Option(name)));
+      this.attributeSelect.replaceChildren(
+        new Option('nothing (plain water)', ''),
+        ...names.map((name) => new Option(name)),
+      );
     this.attributeSelect.value = chosen ?? '';
   }
 
@@ -249,7 +278,7 @@ export class ColorTool {
     const shown = this.events.panes()[0]?.shown;
     if (!shown) return undefined;
     const { attributes } = shown.frame;
-    const none = 'No attribute is named in the settings of this session.';
+    const none = 'No attribute is named in this session: --attribute velocity names one.';
     if (!this.current) return attributes.length === 0 ? none : undefined;
     const attribute = attributes.find(({ name }) => name === this.current!.attribute);
     if (!attribute)

@@ -20,7 +20,11 @@ export class Heading {
   private restsSince: number | undefined;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
-  constructor(private readonly server: Server) {
+  /** live: when it begins to be streamed, or ends. */
+  constructor(
+    private readonly server: Server,
+    private readonly live: (live: boolean) => void,
+  ) {
     document.addEventListener('visibilitychange', () => {
       this.ask();
     });
@@ -106,6 +110,7 @@ export class Heading {
   private showLiveness({ text, live }: Liveness): void {
     if (this.badge.textContent !== text) this.badge.textContent = text;
     this.badge.classList.toggle('live', live);
+    this.live(live);
   }
 
   /** inTab: empty where nothing is looked at. */

@@ -8,10 +8,15 @@ import { element } from './page';
 import { Rate } from './rates';
 import { StageChart } from './stage_chart';
 import { WarningList } from './warnings';
-import { bytesText, countText, millisecondsText, volumeText } from './texts';
+import { bytesText, countText, millisecondsText, volumeText, withTime } from './texts';
 
 const unknown = '–';
 const figures = ['frame', 'latency', 'skipped', 'particles', 'spray', 'volume', 'triangles'];
+/** Those that a stream alone has. */
+const ofStream = ['bytes', 'skipped', 'quality'];
+
+/** What is seen: a session that is being streamed, frames that follow by themselves, or a frame that rests. */
+export type Seen = 'stream' | 'playing' | 'resting';
 
 export class Overlay {
   private readonly drawn = new Rate();
@@ -19,6 +24,8 @@ export class Overlay {
   private readonly chart = new StageChart();
   private readonly warnings = new WarningList(element('warnings', HTMLUListElement));
   private readonly levelTexts: HTMLElement[];
+  private readonly box = element('overlay', HTMLElement);
+  private seen: Seen = 'resting';
 
   constructor() {
     const list = element('levels', HTMLDListElement);
@@ -34,8 +41,18 @@ export class Overlay {
     this.received.add(performance.now(), bytes);
   }
 
+  /** Figures that do not apply to it are not shown. */
+  setSeen(seen: Seen): void {
+    this.seen = seen;
+    this.showRows();
+  }
+
   clear(): void {
+    // Without a frame there are none.
+    this.box.dataset.empty = '';
+    this.seen = 'resting';
     for (const id of figures) set(id, unknown);
+    this.showRows();
     for (const text of this.levelTexts) text.textContent = unknown;
     this.chart.clear();
     this.warnings.show([]);
@@ -43,13 +60,15 @@ export class Overlay {
 
   /** When a picture of the frame has been drawn, new or from the frames that are kept. */
   frameDrawn(frame: Frame, levels: readonly number[]): void {
-    set('frame', `${countText(frame.index)} (${frame.simulationTime.toFixed(2)} s)`);
+    delete this.box.dataset.empty;
+    set('frame', withTime(countText(frame.index), frame));
     const { sprayParticles, volume, particleVolume } = frame.statistics;
     // Older recordings have no volumes.
     set('spray', particleVolume > 0 ? countText(sprayParticles) : unknown);
     set('volume', particleVolume > 0 ? volumeText(volume, particleVolume) : unknown);
     set('triangles', countText(frame.triangleCount));
     set('latency', unknown);
+    this.showRows();
     this.levelTexts.forEach((text, level) => {
       text.textContent = countText(levels[level]!);
     });
@@ -72,6 +91,7 @@ export class Overlay {
       millisecondsText(frame.statistics.latencySeconds * 1000 + roundTrip / 2 + performance.now() - frame.beganAt),
     );
     this.framePlayed(frame);
+    this.showRows();
   }
 
   /** When that was its first, and the next one follows by itself. */
@@ -83,6 +103,13 @@ export class Overlay {
 
   setQuality(text: string): void {
     set('quality', text);
+  }
+
+  private showRows(): void {
+    const known = (id: string): boolean => element(id, HTMLElement).textContent !== unknown;
+    element('rate-row', HTMLElement).hidden = this.seen === 'resting';
+    for (const id of ofStream) element(`${id}-row`, HTMLElement).hidden = this.seen !== 'stream' || !known(id);
+    element('latency-row', HTMLElement).hidden = !known('latency');
   }
 
   private refresh(): void {

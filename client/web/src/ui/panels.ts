@@ -21,11 +21,17 @@ export function coveredMargins(water: HTMLCanvasElement): Margins {
 
 /** Lays the panels above the controls, however many lines these have. */
 export function keepPanelsAboveControls(changed: () => void): void {
-  const [controls, panels] = [element('controls', HTMLElement), element('panels', HTMLElement)];
+  const [controls, panels, figures] = ['controls', 'panels', 'overlay'].map((id) => element(id, HTMLElement)) as [
+    HTMLElement,
+    HTMLElement,
+    HTMLElement,
+  ];
   const observer = new ResizeObserver(() => {
     element('watch', HTMLElement).style.setProperty('--controls', `${controls.offsetHeight}px`);
     changed();
   });
   observer.observe(controls);
   observer.observe(panels);
+  // They come with the first frame; on a narrow screen their height counts, too.
+  observer.observe(figures);
 }

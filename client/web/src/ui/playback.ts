@@ -15,6 +15,7 @@ export interface Reel {
 
 export class Playback {
   private readonly pauseButton = element('pause', HTMLButtonElement);
+  private readonly pauseIcon = this.pauseButton.querySelector('use')!;
   private readonly scrub = element('scrub', HTMLInputElement);
   /** The frame, in words, beside the slider. */
   private readonly text = element('at', HTMLElement);
@@ -81,7 +82,8 @@ export class Playback {
   }
 
   private label(): void {
-    this.pauseButton.textContent = this.isPaused ? (this.reel?.resume ?? 'Resume') : 'Pause';
+    element('pause-text', HTMLElement).textContent = this.isPaused ? (this.reel?.resume ?? 'Resume') : 'Pause';
+    this.pauseIcon.setAttribute('href', this.isPaused ? '#icon-play' : '#icon-pause');
   }
 
   private choose(at: number): void {

@@ -1,6 +1,8 @@
 // The sessions of the server, to choose one from. Follows by itself while it is shown.
 import type { Session } from '../gen/meniscus/v1/session_service_pb';
 import { FrameRates } from '../list/frame_rates';
+import { newestMesh } from '../list/newest_mesh';
+import { OnScreen } from '../list/on_screen';
 import { givenName } from '../list/session_name';
 import { inOrder, matches } from '../list/session_order';
 import type { ThumbnailPainter } from '../list/thumbnail_painter';
@@ -10,6 +12,7 @@ import { Code, explain, RpcError } from '../rpc/status';
 import { factsOfSession } from '../scene_facts';
 import { arrange } from './arrange';
 import type { Banner } from './banner';
+import { fillCommand } from './commands';
 import { element } from './page';
 import { followSearch, searched } from './search_field';
 import { SessionCard } from './session_card';
@@ -23,7 +26,7 @@ export class SessionList {
   private readonly rates = new FrameRates();
   private readonly thumbnails: Thumbnails;
   /** Which cards are on the screen. */
-  private readonly onScreen: IntersectionObserver;
+  private readonly onScreen: OnScreen;
   private sessions: Session[] = [];
   private timer: ReturnType<typeof setTimeout> | undefined;
   /** One for each time that the list is shown: answers to requests of an earlier one are not for it. */
@@ -39,10 +42,8 @@ export class SessionList {
       (id, signal) => this.draw(id, signal),
       () => performance.now(),
     );
-    this.onScreen = new IntersectionObserver((entries) => {
-      for (const { target, isIntersecting } of entries)
-        for (const [id, { item }] of this.cards)
-          if (item === target) this.thumbnails.setVisible(id, isIntersecting && this.showing !== undefined);
+    this.onScreen = new OnScreen((id, visible) => {
+      this.thumbnails.setVisible(id, visible && this.showing !== undefined);
     });
     document.addEventListener('visibilitychange', () => {
       if (!this.showing) return;
@@ -78,6 +79,7 @@ export class SessionList {
       const [info, sessions] = await Promise.all([this.server.info(), this.server.sessions()]);
       if (showing !== this.showing) return;
       element('server', HTMLElement).textContent = `meniscusd ${info.version}, ${info.backend} on ${info.device}`;
+      element('fill-command', HTMLElement).textContent = fillCommand(location.hostname);
       this.sessions = sessions;
       this.rates.update(sessions, performance.now());
       this.fill();
@@ -101,7 +103,7 @@ export class SessionList {
     const ids = new Set(this.sessions.map(({ id }) => id));
     for (const [id, { item }] of this.cards)
       if (!ids.has(id)) {
-        this.onScreen.unobserve(item);
+        this.onScreen.remove(item);
         this.cards.delete(id);
       }
     arrange(
@@ -119,7 +121,7 @@ export class SessionList {
       this.events.chosen(id);
     });
     this.cards.set(id, card);
-    this.onScreen.observe(card.item);
+    this.onScreen.add(card.item, id);
     return card;
   }
 
@@ -127,6 +129,7 @@ export class SessionList {
     const card = this.cards.get(id);
     const session = this.sessions.find((one) => one.id === id);
     if (!card || !session) return;
-    await this.painter.draw(id, factsOfSession(session).up ?? 'y', card.picture, signal);
+    const mesh = await newestMesh((maxLevel) => this.server.snapshot({ sessionId: id, maxLevel }, signal));
+    await this.painter.draw(mesh, factsOfSession(session).up ?? 'y', card.picture, signal);
   }
 }

@@ -52,6 +52,8 @@ export class StageChart {
   private draw(): void {
     const context = this.canvas.getContext('2d');
     if (!context) return;
+    // Of a frame that rests there is no history.
+    this.canvas.hidden = this.frames.length === 0;
     const { width, height } = this.canvas;
     context.clearRect(0, 0, width, height);
     const scale = height / Math.max(...this.frames.map(sum), 1e-6);

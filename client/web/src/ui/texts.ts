@@ -19,8 +19,18 @@ export function countText(count: number | bigint): string {
   return count.toLocaleString('en-US');
 }
 
-export function frameText({ index, simulationTime }: { index: bigint; simulationTime: number }): string {
-  return `frame ${index}, ${simulationTime.toFixed(2)} s`;
+interface Timed {
+  readonly index: bigint;
+  /** Seconds; zero in frames of simulators that give none. */
+  readonly simulationTime: number;
+}
+
+export function frameText(frame: Timed): string {
+  return withTime(`frame ${frame.index}`, frame);
+}
+
+export function withTime(text: string, { simulationTime }: Timed): string {
+  return simulationTime === 0 ? text : `${text}, ${simulationTime.toFixed(2)} s`;
 }
 
 /** Digits after the point that show a hundredth of `step`, and no more. */

@@ -8,14 +8,15 @@ export function storedToken(): string {
   return storage()?.getItem(storageKey) ?? '';
 }
 
-/** Resolves with what was entered; with undefined when the dialog is closed without. */
-export function askToken(reason: string): Promise<string | undefined> {
+/** another: whether there was one, which stays to be mended. Resolves with what was entered; with undefined when the dialog is closed without. */
+export function askToken(another: boolean, reason: string): Promise<string | undefined> {
   const dialog = element('token-dialog', HTMLDialogElement);
   const input = element('token', HTMLInputElement);
   element('token-reason', HTMLElement).textContent = reason;
-  input.value = '';
+  element('token-heading', HTMLElement).textContent = another ? 'Another token is needed' : 'A token is needed';
   dialog.returnValue = '';
   if (!dialog.open) dialog.showModal();
+  input.select();
   return new Promise((resolve) => {
     dialog.addEventListener(
       'close',

@@ -1,4 +1,4 @@
-// The environment behind the water: one triangle that covers the screen.
+// The environment behind the water: one triangle that covers the screen, drawn after the water and where there is none.
 import { BufferAttribute, BufferGeometry, Matrix4, Mesh, ShaderMaterial, type PerspectiveCamera } from 'three';
 import { environmentGlsl, type EnvironmentUniforms } from './environment';
 
@@ -11,7 +11,6 @@ export class Background {
     triangle.setAttribute('position', new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
     const material = new ShaderMaterial({
       uniforms: { ...environment, inverseView: { value: this.inverse } },
-      depthTest: false,
       depthWrite: false,
       vertexShader: /* glsl */ `
         uniform mat4 inverseView;
@@ -30,7 +29,7 @@ export class Background {
     });
     this.mesh = new Mesh(triangle, material);
     this.mesh.frustumCulled = false;
-    this.mesh.renderOrder = -1;
+    this.mesh.renderOrder = 1;
   }
 
   update(camera: PerspectiveCamera): void {

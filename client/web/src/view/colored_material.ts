@@ -1,4 +1,4 @@
-// The surface in the colors of what its vertices have: opaque, lit so that its shape is seen and its colors stay those of the legend.
+// The surface in the colors of what its vertices have: opaque; lit, so that its shape is seen, or exactly in the colors of the legend.
 import { DataTexture, LinearFilter, ShaderMaterial, Vector2 } from 'three';
 import { colorOf, type ColorMap } from '../color/color_maps';
 import type { QuantityKind } from '../color/quantity';
@@ -25,13 +25,20 @@ export class ColoredMaterial {
   private readonly table = new DataTexture(new Uint8Array(4 * mapColors), mapColors, 1);
   /** Factor and summand from a value to its part of the range. */
   private readonly range = new Vector2();
+  private readonly unlit = { value: false };
   private map: ColorMap | undefined;
 
   constructor(kind: QuantityKind, environment: EnvironmentUniforms, hasNormals: { value: boolean }) {
     this.table.minFilter = this.table.magFilter = LinearFilter;
     const { value, declare, color } = shading[kind];
     this.material = new ShaderMaterial({
-      uniforms: { ...environment, hasNormals, colorMap: { value: this.table }, range: { value: this.range } },
+      uniforms: {
+        ...environment,
+        hasNormals,
+        colorMap: { value: this.table },
+        range: { value: this.range },
+        unlit: this.unlit,
+      },
       clipping: true,
       // Behind the wires that lie in it.
       polygonOffset: true,
@@ -43,9 +50,14 @@ export class ColoredMaterial {
         ${surfaceFragmentGlsl}
         uniform sampler2D colorMap;
         uniform vec2 range;
+        uniform bool unlit;
         ${declare}
         void main() {
           #include <clipping_planes_fragment>
+          if (unlit) {
+            gl_FragColor = vec4(${color}, 1.0);
+            return;
+          }
           vec3 v = toEye();
           vec3 n = facingNormal(v);
           float facing = clamp(dot(n, v), 0.0, 1.0);
@@ -57,7 +69,8 @@ export class ColoredMaterial {
     });
   }
 
-  set(map: ColorMap, range: ValueRange | undefined): void {
+  set(map: ColorMap, range: ValueRange | undefined, unlit: boolean): void {
+    this.unlit.value = unlit;
     const extent = range ? range.high - range.low : 0;
     if (range && extent > 0) this.range.set(1 / extent, -range.low / extent);
     else this.range.set(0, 0.5);

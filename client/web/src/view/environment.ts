@@ -12,19 +12,23 @@ uniform vec3 lineColor;
 uniform vec3 sunColor;
 uniform vec3 sunDirection;
 uniform vec3 floorCenter;
+uniform vec3 gridOrigin;
+uniform float gridStep;
 uniform float sceneSize;
 uniform mat4 sunMatrix;
 uniform sampler2D sunThickness;
 
 const vec3 absorption = vec3(13.0, 4.2, 1.8);
 
-// What is left of the sun's light where it has come through water.
-vec3 sunlightAt(vec3 place) {
+// What is left of the sun's light where it has come through water. close: whether it is darker where water stands close by, too.
+vec3 sunlightAt(vec3 place, bool close) {
   vec2 at = (sunMatrix * vec4(place, 1.0)).xy;
   if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0)))) return vec3(1.0);
-  float depth = max(texture2D(sunThickness, at).r, 0.0);
+  float depth = max(textureLod(sunThickness, at, 0.0).r, 0.0);
   // Some is reflected and scattered away, whatever its color.
-  return exp(-(absorption + 2.0) * depth) * (1.0 - 0.25 * smoothstep(0.0, 0.01, depth));
+  vec3 left = exp(-(absorption + 2.0) * depth) * (1.0 - 0.25 * smoothstep(0.0, 0.01, depth));
+  if (!close) return left;
+  return left * (1.0 - 0.4 * smoothstep(0.0, 0.05, textureLod(sunThickness, at, 4.0).r));
 }
 
 vec3 skyColor(vec3 direction) {
@@ -36,15 +40,16 @@ vec3 skyColor(vec3 direction) {
 
 float gridLine(float x, float width) {
   float distance = abs(fract(x - 0.5) - 0.5);
-  return 1.0 - smoothstep(0.012, 0.012 + width, distance);
+  // As strong as it is wide: far lines fade.
+  return (1.0 - smoothstep(0.004, 0.004 + width, distance)) * min(1.0, 0.03 / width);
 }
 
 // lines: whether with the grid. distance: that the ray has come, for lines that are as soft as they are far.
 vec3 floorAt(vec3 place, float distance, bool lines) {
-  vec2 tile = (place.xz - floorCenter.xz) / (0.125 * sceneSize);
-  float soft = 0.02 + 0.02 * distance / sceneSize;
+  vec2 tile = (place.xz - gridOrigin.xz) / gridStep;
+  float soft = 0.01 + 0.0025 * distance / gridStep;
   float line = lines ? max(gridLine(tile.x, soft), gridLine(tile.y, soft)) : 0.0;
-  return mix(floorColor, lineColor, 0.6 * line) * (0.4 + 0.6 * sunlightAt(place));
+  return mix(floorColor, lineColor, line) * (0.4 + 0.6 * sunlightAt(place, lines));
 }
 
 vec3 environment(vec3 origin, vec3 direction, bool lines) {
@@ -72,7 +77,17 @@ export interface EnvironmentUniforms {
   lineColor: { value: Color };
   sunColor: { value: Color };
   sunDirection: { value: Vector3 };
+  /** What scatters in water that is thin, and in deep water. */
+  shallowColor: { value: Color };
+  deepColor: { value: Color };
+  /** What water mirrors of the sky where it is seen from the side. */
+  rimColor: { value: Color };
+  /** How much of what is behind it the thinnest water hides, 0 to 1. */
+  leastCover: { value: number };
   floorCenter: { value: Vector3 };
+  /** A crossing of the floor's lines, and the way from one line to the next. */
+  gridOrigin: { value: Vector3 };
+  gridStep: { value: number };
   sceneSize: { value: number };
   /** To the place in the texture of how much water the sun's light has come through, in scene sizes. */
   sunMatrix: { value: Matrix4 };
@@ -88,21 +103,45 @@ export function environmentUniforms(): EnvironmentUniforms {
     lineColor: { value: new Color() },
     sunColor: { value: new Color() },
     sunDirection: { value: new Vector3(-0.45, 0.72, 0.53).normalize() },
+    shallowColor: { value: new Color() },
+    deepColor: { value: new Color() },
+    rimColor: { value: new Color() },
+    leastCover: { value: 0 },
     floorCenter: { value: new Vector3() },
+    gridOrigin: { value: new Vector3() },
+    gridStep: { value: 0.1 },
     sceneSize: { value: 1 },
     sunMatrix: { value: new Matrix4() },
     sunThickness: { value: null },
   };
 }
 
+/** Such that water stands out from the floor: brighter than a dark one, darker than a light one. */
+const colors = {
+  light: {
+    zenithColor: 0x5d9fd8,
+    horizonColor: 0xe9eff4,
+    floorColor: 0xdde0e3,
+    lineColor: 0xb9c1c8,
+    sunColor: 0xfff1d8,
+    shallowColor: 0x1c78b4,
+    deepColor: 0x0a4a8c,
+    rimColor: 0x17609c,
+  },
+  dark: {
+    zenithColor: 0x060a10,
+    horizonColor: 0x16202b,
+    floorColor: 0x1a222b,
+    lineColor: 0x2b3743,
+    sunColor: 0xd6e4ff,
+    shallowColor: 0x2f86bd,
+    deepColor: 0x114c82,
+    rimColor: 0x9fd4f6,
+  },
+} as const;
+
 export function setTheme(uniforms: EnvironmentUniforms, theme: Theme): void {
-  const [zenith, horizon, floor, line, sun] =
-    theme === 'light'
-      ? ([0x2f74c0, 0xdfeaf3, 0xd3d6d8, 0x98a1a8, 0xfff1d8] as const)
-      : ([0x0e2440, 0x33475c, 0x39434c, 0x5b6873, 0xd6e4ff] as const);
-  uniforms.zenithColor.value.set(zenith);
-  uniforms.horizonColor.value.set(horizon);
-  uniforms.floorColor.value.set(floor);
-  uniforms.lineColor.value.set(line);
-  uniforms.sunColor.value.set(sun).multiplyScalar(3);
+  for (const [name, color] of Object.entries(colors[theme])) (uniforms[name]!.value as Color).set(color);
+  uniforms.sunColor.value.multiplyScalar(3);
+  uniforms.leastCover.value = theme === 'light' ? 0.55 : 0.28;
 }

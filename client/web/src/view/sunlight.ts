@@ -16,7 +16,7 @@ export class Sunlight {
     private readonly environment: EnvironmentUniforms,
     clippingPlanes: Plane[],
   ) {
-    this.pass = new ThicknessPass(environment, clippingPlanes);
+    this.pass = new ThicknessPass(environment, clippingPlanes, true);
     this.pass.setSize(pixels, pixels);
     environment.sunThickness.value = this.pass.texture;
   }

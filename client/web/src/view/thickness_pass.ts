@@ -7,6 +7,7 @@ import {
   DoubleSide,
   HalfFloatType,
   LinearFilter,
+  LinearMipmapNearestFilter,
   OneFactor,
   RedFormat,
   ShaderMaterial,
@@ -28,12 +29,13 @@ export class ThicknessPass {
   private readonly target: WebGLRenderTarget;
   private readonly material: ShaderMaterial;
 
-  /** clippingPlanes: none, or that of the cut. */
-  constructor(environment: EnvironmentUniforms, clippingPlanes: Plane[]) {
+  /** clippingPlanes: none, or that of the cut. blurred: whether the texture has coarser levels, too. */
+  constructor(environment: EnvironmentUniforms, clippingPlanes: Plane[], blurred = false) {
     this.target = new WebGLRenderTarget(1, 1, {
       format: RedFormat,
       type: HalfFloatType,
-      minFilter: LinearFilter,
+      minFilter: blurred ? LinearMipmapNearestFilter : LinearFilter,
+      generateMipmaps: blurred,
       magFilter: LinearFilter,
       depthBuffer: false,
     });

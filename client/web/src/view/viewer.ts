@@ -16,10 +16,12 @@ import { cutPlane, type Cut } from './cut';
 import { CutFace } from './cut_face';
 import { DomainBox } from './domain_box';
 import { environmentUniforms, setTheme, type Theme } from './environment';
-import { distanceToSee, putInTheMiddle, type Margins } from './fit';
+import { framing, putInTheMiddle, type Margins } from './fit';
 import { levelLineMaterials, levelSurfaceMaterial, plainLineMaterials } from './level_materials';
+import { occupied } from './occupied';
 import { ParticleCloud } from './particle_cloud';
 import { pick, type Pick } from './pick';
+import { roundLength } from './scale_bar';
 import { SprayCloud } from './spray_cloud';
 import { Sunlight } from './sunlight';
 import { pictureLayer, ThicknessPass, waterLayer } from './thickness_pass';
@@ -34,6 +36,8 @@ export interface Coloring {
   readonly map: ColorMap;
   /** The range of numbers; none without any. */
   readonly range: ValueRange | undefined;
+  /** Whether there is no light, so that the colors are those of the map. */
+  readonly unlit: boolean;
 }
 
 export interface CameraPlace {
@@ -53,8 +57,21 @@ export interface ViewerEvents {
 
 /** Pixels of the screen per pixel of the water's thickness, on each axis. */
 const thicknessCoarseness = 2;
-/** From the mesh to a camera that looks at all of it. */
-const fitDirection = new Vector3(0.55, 0.4, 1).normalize();
+/** From the mesh to a camera that looks at all of it; of a picture that is taller than wide from higher up, so that there is less sky. */
+const fitDirection = new Vector3(0.55, 0.32, 1).normalize();
+const fitDirectionTall = new Vector3(0.55, 0.7, 1).normalize();
+/** ms after which the camera has come two thirds of its way to where the water has gone. */
+const easing = 220;
+/** Parts of the distance: the water may move so far before the camera follows, and so close the camera comes. */
+const slack = 0.04;
+const arrived = 0.005;
+/** ms after which a picture is not the one before the next. */
+const pictureRests = 1000;
+/** Of the mesh's diagonal, at most: the way from one line of the floor to the next. */
+const gridPart = 0.15;
+
+/** Whether a person wants no movement that no hand has made. */
+const calm = matchMedia('(prefers-reduced-motion: reduce)');
 
 export class Viewer {
   private readonly renderer: WebGLRenderer;
@@ -89,10 +106,14 @@ export class Viewer {
   private scheduled = false;
   /** Since the last picture. */
   private waterChanged = true;
-  /** The box that the camera was placed to show, until a person moves it. */
+  /** Around the meshes that the camera has followed, until a person moves it. */
   private following: WorldBox | undefined;
-  /** From there to the camera, in the scene. */
-  private direction = fitDirection;
+  /** From the water to the camera that follows it, in the scene; none: that of fit(). */
+  private direction: Vector3 | undefined;
+  /** The place that the camera that follows is on its way to. */
+  private goal: CameraPlace | undefined;
+  /** The time of the last picture, ms. */
+  private drawnAt = -Infinity;
 
   /** Throws if there is no WebGL 2. */
   constructor(
@@ -122,7 +143,7 @@ export class Viewer {
         this.draw();
       },
       moving: (moving) => {
-        this.following = undefined;
+        this.stay();
         this.events.moving(moving);
       },
     });
@@ -143,9 +164,10 @@ export class Viewer {
   /** Back to the empty environment. */
   clear(): void {
     this.shown = undefined;
-    this.following = undefined;
+    this.stay();
     this.beside = undefined;
     this.bricks.clear();
+    this.lookAtNothing();
     this.showSpray();
     this.waterChanged = true;
     this.draw();
@@ -173,8 +195,31 @@ export class Viewer {
     this.follow(box);
   }
 
+  /** The camera stays with what is seen of the water, as it goes. */
   private follow(box: WorldBox | undefined): void {
-    if (box && this.following && !contains(this.following, box)) this.lookAt(union(this.following, box));
+    if (!box || !this.following) return;
+    if (!contains(this.following, box)) {
+      this.following = union(this.following, box);
+      this.adopt(this.following);
+    }
+    const place = this.placeToSee();
+    if (this.goal && place && apart(place, this.goal) < slack * lengthOf(place)) return;
+    this.goal = place;
+  }
+
+  /** It does not follow any more. */
+  private stay(): void {
+    this.following = undefined;
+    this.goal = undefined;
+  }
+
+  /** The floor alone, until there is something. */
+  private lookAtNothing(): void {
+    this.origin = [0, 0, 0];
+    this.environment.floorCenter.value.set(0, 0, 0);
+    this.environment.sceneSize.value = 1;
+    this.controls.place(fitDirection.clone().multiplyScalar(2), new Vector3());
+    this.placeInScene();
   }
 
   /** In place of the surface; its wires stay. None: the surface again. */
@@ -204,7 +249,7 @@ export class Viewer {
     }
     const before = this.colored;
     this.coloring = coloring;
-    if (coloring) this.coloredMaterial(coloring.quantity.kind).set(coloring.map, coloring.range);
+    if (coloring) this.coloredMaterial(coloring.quantity.kind).set(coloring.map, coloring.range, coloring.unlit);
     this.showLook();
     // The legend comes, or goes.
     if (this.colored !== before) this.resize();
@@ -328,38 +373,68 @@ export class Viewer {
 
   /** Looks at all of the mesh, also as it spreads, until a person moves the camera. */
   fit(): void {
-    this.lookFrom(fitDirection);
+    this.lookFrom(undefined);
   }
 
   /** The same, along an axis: from its positive end; from there, from its negative one. */
   lookAlong(axis: Axis): void {
     const direction = toScene(alongAxis(axis), [0, 0, 0], this.up);
-    if (this.following && this.direction.dot(direction) > 0.99) direction.negate();
+    if (this.following && this.direction && this.direction.dot(direction) > 0.99) direction.negate();
     // A view straight up or down has no right and left.
     if (direction.y !== 0) direction.z += 1e-3;
     this.lookFrom(direction.normalize());
   }
 
-  private lookFrom(direction: Vector3): void {
+  private lookFrom(direction: Vector3 | undefined): void {
     this.direction = direction;
     const box = unionOf([this.box, this.beside]);
-    if (box) this.lookAt(box);
-  }
-
-  private lookAt(box: WorldBox): void {
+    if (!box) return;
     this.following = box;
     this.adopt(box);
-    const target = this.inScene(center(box));
-    const { clientWidth: width, clientHeight: height } = this.canvas;
-    const margins = this.margins;
-    const free = {
-      width: Math.max(0.2, 1 - margins.right / width),
-      height: Math.max(0.2, 1 - (margins.top + margins.bottom) / height),
-    };
-    const seen = corners(box).map((corner) => this.inScene(corner).sub(target));
-    const distance = distanceToSee(seen, this.direction, this.controls.camera, free);
-    this.controls.place(target.clone().addScaledVector(this.direction, distance), target);
+    this.lookAgain();
+  }
+
+  /** At once. */
+  private lookAgain(): void {
+    const place = this.placeToSee();
+    if (!place) return;
+    this.goal = place;
+    this.controls.place(this.inScene(place.position), this.inScene(place.target));
     this.draw();
+  }
+
+  /** From where what matters of the mesh is seen, beside what covers the picture; none where there is no mesh. */
+  private placeToSee(): CameraPlace | undefined {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const points = this.shown ? occupied(this.shown).map((point) => this.inScene(point)) : [];
+    const beside = this.beside ? corners(this.beside).map((corner) => this.inScene(corner)) : [];
+    if (points.length + beside.length === 0 || width === 0 || height === 0) return undefined;
+    const { top, right, bottom } = this.margins;
+    const free = {
+      width: Math.max(0.2, 1 - right / width),
+      height: Math.max(0.2, 1 - (top + bottom) / height),
+    };
+    const direction =
+      this.direction ?? (free.width * width < 0.8 * free.height * height ? fitDirectionTall : fitDirection);
+    const { target, distance } = framing(points.length > 0 ? points : beside, beside, direction, this.camera, free);
+    return {
+      position: this.inWorld(target.clone().addScaledVector(direction, distance)),
+      target: this.inWorld(target),
+    };
+  }
+
+  /** A step of the camera that follows, if it is not there yet. now: ms. */
+  private step(now: number): void {
+    const { goal, cameraPlace } = this;
+    const since = now - this.drawnAt;
+    this.drawnAt = now;
+    if (!goal || samePlace(goal, cameraPlace)) return;
+    // Where pictures take long the camera jumps: none is drawn for its way alone.
+    const part = calm.matches ? 1 : 1 - Math.exp(-(since < pictureRests ? since : 16) / easing);
+    const near = (1 - part) * apart(goal, cameraPlace) <= arrived * lengthOf(goal);
+    const between = (from: Point, to: Point): Vector3 => this.inScene(from).lerp(this.inScene(to), near ? 1 : part);
+    this.controls.place(between(cameraPlace.position, goal.position), between(cameraPlace.target, goal.target));
+    if (!near) this.draw();
   }
 
   get cameraPlace(): CameraPlace {
@@ -367,7 +442,7 @@ export class Viewer {
   }
 
   set cameraPlace({ position, target }: CameraPlace) {
-    this.following = undefined;
+    this.stay();
     this.controls.place(this.inScene(position), this.inScene(target));
     this.draw();
   }
@@ -386,6 +461,11 @@ export class Viewer {
     this.setReach();
     // Under the lowest corner, whichever axis is up.
     this.environment.floorCenter.value.set(0, this.inScene(box.min).y, 0);
+    // The floor's lines lie at round lengths, and stay while the water moves.
+    const step = roundLength(gridPart * size(box));
+    const { x, z } = this.inScene([0, 0, 0]);
+    this.environment.gridStep.value = step;
+    this.environment.gridOrigin.value.set(x % step, 0, z % step);
   }
 
   private setReach(): void {
@@ -419,7 +499,7 @@ export class Viewer {
     this.spray.setScreenHeight(this.canvas.height);
     this.thickness.setSize(this.canvas.width / thicknessCoarseness, this.canvas.height / thicknessCoarseness);
     putInTheMiddle(this.controls.camera, this.margins, clientWidth, clientHeight);
-    if (this.following) this.lookAt(this.following);
+    if (this.following) this.lookAgain();
     // At once: the canvas is blank now.
     this.render();
   }
@@ -438,6 +518,7 @@ export class Viewer {
   render(): void {
     const { camera } = this.controls;
     const cut = this.cutPlanes.length > 0;
+    this.step(performance.now());
     this.renderer.localClippingEnabled = cut;
     camera.updateMatrixWorld();
     this.background.update(camera);
@@ -459,6 +540,18 @@ export class Viewer {
 
 /** Up to what the way through the scene's coordinates costs. */
 function samePlace(a: CameraPlace, b: CameraPlace): boolean {
-  const apart = (p: Point, q: Point): number => Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
-  return apart(a.position, b.position) + apart(a.target, b.target) <= 1e-6 * apart(a.position, a.target);
+  return apart(a, b) <= 1e-6 * lengthOf(a);
+}
+
+/** The way of position and target together. */
+function apart(a: CameraPlace, b: CameraPlace): number {
+  return distanceOf(a.position, b.position) + distanceOf(a.target, b.target);
+}
+
+function lengthOf({ position, target }: CameraPlace): number {
+  return distanceOf(position, target);
+}
+
+function distanceOf(p: Point, q: Point): number {
+  return Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }

@@ -25,6 +25,10 @@ export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial 
       ${surfaceFragmentGlsl}
       uniform sampler2D thickness;
       uniform vec2 screenSize;
+      uniform vec3 shallowColor;
+      uniform vec3 deepColor;
+      uniform vec3 rimColor;
+      uniform float leastCover;
 
       const float indexRatio = 1.0 / 1.333;
       const float normalReflectance = 0.02;
@@ -44,20 +48,26 @@ export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial 
         vec3 v = toEye();
         vec3 n = facingNormal(v);
         float facing = clamp(dot(n, v), 0.0, 1.0);
-        float fresnel = normalReflectance + (1.0 - normalReflectance) * pow(1.0 - facing, 5.0);
+        float aside = (1.0 - facing) * (1.0 - facing);
+        float rim = aside * aside;
+        float fresnel = normalReflectance + (1.0 - normalReflectance) * rim * (1.0 - facing);
 
         float depth = max(texture2D(thickness, gl_FragCoord.xy / screenSize).r, 0.0);
         vec3 absorbed = exp(-absorption * depth);
-        // What comes back from within, more of it where the sun falls in.
+        // What comes back from within, more of it where the sun falls in. Thin water has some, too: a sheet is seen, and an edge does not dissolve.
         float lit = 0.5 + 0.5 * dot(n, sunDirection);
-        vec3 scattered = vec3(0.008, 0.066, 0.115) * (1.0 - exp(-9.0 * depth)) * (0.2 + 0.7 * horizonColor + 0.25 * lit * lit * sunColor);
+        float clear = exp(-7.0 * depth);
+        vec3 body = mix(deepColor, shallowColor, clear) * (0.3 + 0.25 * n.y + 0.75 * lit * lit);
+        float clear2 = clear * clear;
+        float cover = mix(0.9, leastCover, clear2 * clear2 * clear);
 
         // Where the ray leaves the water it is bent again, on the whole halfway back. The water shows the floor without its lines: bent by every
         // ripple, they would look like cracks in the mesh.
         vec3 bent = refract(-v, n, indexRatio);
-        vec3 through = environment(place + bent * depth * sceneSize, normalize(bent - v), false) * absorbed + scattered;
-        vec3 mirrored = environment(place, reflect(-v, n), false);
-        vec3 color = mix(through, mirrored, fresnel) + sunColor * fresnel * sunHighlight(n, v);
+        vec3 through = mix(environment(place + bent * depth * sceneSize, normalize(bent - v), false) * absorbed, body, cover);
+        // Rays that it sends downwards are few, and meet a floor that has the horizon's color soon.
+        vec3 mirrored = skyColor(reflect(-v, n));
+        vec3 color = mix(mix(through, mirrored, fresnel), rimColor, 0.7 * rim) + sunColor * fresnel * sunHighlight(n, v);
         gl_FragColor = vec4(displayed(color), 1.0);
       }`,
   });

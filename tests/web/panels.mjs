@@ -1,0 +1,44 @@
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { describe, it } from 'node:test';
+import { missing, screenshot } from './support/browser.mjs';
+import { lattice, writeParticles } from './support/particles.mjs';
+import { startServer, startUploader } from './support/programs.mjs';
+import { open, surface } from './support/viewer.mjs';
+
+describe('the panels', { skip: missing }, () => {
+  it('have titles, name no time where there is none, and say how attributes are named', async () => {
+    const folder = mkdtempSync(join(tmpdir(), 'meniscus-web-'));
+    try {
+      writeParticles(join(folder, 'frame.ply'), lattice(10, 6, 6, 0.05));
+      const server = await startServer({ args: ['--record', join(folder, 'recordings')] });
+      const args = ['reconstruct', join(folder, 'frame.ply'), '-r', '0.025', '--stats', join(folder, 'stats.json')];
+      const upload = startUploader(server, args);
+      await upload.finished();
+      const viewport = { width: 1200, height: 750 };
+      const page = await open(`${server.url}#recording=${upload.session}/1&position=0`, { viewport });
+      await surface(page);
+      assert.equal(await page.locator('#frame').innerText(), '0');
+      assert.equal(await page.locator('#at').innerText(), 'frame 0');
+      for (const tool of ['cut', 'probe', 'ruler', 'beside', 'color']) await page.click(`#${tool}`);
+      const titles = await page.locator('#overlay h2, .panel h2').allInnerTexts();
+      assert.deepEqual(titles, ['Figures', 'Color', 'Cut', 'Probe', 'Ruler', 'Beside']);
+      await page.getByText('No attribute is named in this session: --attribute velocity names one.').waitFor();
+      // The ring of what has the focus leaves its name to be read.
+      const [name, field] = await page.evaluate(() => {
+        const select = document.getElementById('color-attribute');
+        const range = document.createRange();
+        range.selectNode(select.parentElement.firstChild);
+        const { outlineOffset, outlineWidth } = getComputedStyle(select);
+        const ring = parseFloat(outlineOffset) + parseFloat(outlineWidth);
+        return [range.getBoundingClientRect().bottom, select.getBoundingClientRect().top - ring];
+      });
+      assert.ok(field >= name, `the ring begins at ${field}, the name ends at ${name}`);
+      await screenshot(page, 'panels');
+    } finally {
+      rmSync(folder, { recursive: true });
+    }
+  });
+});
