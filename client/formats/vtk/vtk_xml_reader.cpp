@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t most_marks = 1'000'000;
 /// What a compressed block takes of the budget beside its bytes: a decompression has to be begun for each, even for one
 /// without bytes. VTK's blocks have 32 KiB and more.
-constexpr std::uint64_t block_cost = 1024;
+constexpr std::uint64_t block_cost = 64;
 
 std::optional<ScalarType> xml_type_by_name(std::string_view name) {
     using enum ScalarType;

@@ -134,17 +134,17 @@ std::string announced_in_sum() {
     return crafted_zip(locals, directory);
 }
 
-/// A member of 30 MiB, and small ones of its name.
+/// A particle, an array of 30 MiB, and small ones of its name.
 std::string equal_names() {
     std::string locals;
     std::vector<CraftedMember> directory;
     for (std::uint64_t i = 0; i < 4000; ++i) {
-        const std::uint64_t count = i == 0 ? 30 * mebibyte / 12 : 1;
+        const std::uint64_t count = i == 1 ? 30 * mebibyte / 12 : 1;
         Deflating content(Deflating::raw);
         content.add(formats::npy_header("<f4", {count, 3}));
         content.zeros(12 * count);
         const std::string local = crafted_local(content.finish());
-        directory.push_back({"positions.npy", static_cast<std::uint32_t>(content.size()),
+        directory.push_back({i == 0 ? "positions.npy" : "a.npy", static_cast<std::uint32_t>(content.size()),
                              static_cast<std::uint32_t>(local.size() - 30), content.crc(),
                              static_cast<std::uint32_t>(locals.size())});
         locals += local;
