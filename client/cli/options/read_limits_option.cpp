@@ -10,10 +10,11 @@ namespace meniscus::cli {
 void add_read_limits(CLI::App& command, formats::ReadLimits& limits) {
     const OptionGroup group(command, files_heading);
     command
-        .add_option("--max-file-bytes", limits.most_bytes,
-                    "Refuse an input that takes more bytes, as 4G, with all that it makes grow")
+        .add_option(
+            "--max-file-bytes", limits.most_bytes,
+            "Refuse an input that takes more bytes, as 4G, with all that it makes grow; by default more than half "
+            "of the memory, at most 8G")
         ->transform(CLI::AsSizeValue(false))
-        ->default_str("half of the memory, at most 8G")
         ->type_name("BYTES");
 }
 

@@ -1,7 +1,7 @@
-"""formats_exchange_test.py PROGRAM HDF5: files that meshio, numpy and h5py write are read, and ours are read by them, by
-Open3D, and by VTK, whose readers PyVista has too.
+"""formats_exchange_test.py PROGRAM HDF5: files of meshio, numpy and h5py are read, and ours by them, Open3D and VTK.
 
-PROGRAM: formats_exchange, which reads one file and writes another. HDF5: ON if it reads HDF5.
+PROGRAM: formats_exchange, which reads one file and writes another. HDF5: ON if it reads HDF5. VTK's readers are those
+of PyVista.
 """
 
 import base64
