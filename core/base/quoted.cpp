@@ -39,6 +39,15 @@ std::string escaped(std::string_view text, std::size_t most) {
     return line_of(text, '\0', most);
 }
 
+std::string visible(std::string_view lines) {
+    std::string out;
+    for_each_character(lines, [&](const Character& character) {
+        const bool plain = character.bytes == "\n" || character.bytes == "\\";
+        out += plain ? std::string(character.bytes) : shown(character, '\0');
+    });
+    return out;
+}
+
 std::string Quoted::operator()(std::string_view text, char mark, std::size_t most) const {
     return std::string(1, mark).append(line_of(text, mark, most)) + mark;
 }

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -37,8 +38,13 @@ ProcessResult run_process(const std::string& program, const std::vector<std::str
     posix_spawn_file_actions_destroy(&actions);
     if (spawned != 0) throw std::runtime_error("cannot run " + program);
     int status = 0;
-    if (waitpid(child, &status, 0) != child) throw std::runtime_error("lost " + program);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, formats::read_file(out), formats::read_file(err)};
+    rusage usage{};
+    if (wait4(child, &status, 0, &usage) != child) throw std::runtime_error("lost " + program);
+    const auto seconds = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, formats::read_file(out), formats::read_file(err),
+            seconds(usage.ru_utime) + seconds(usage.ru_stime), static_cast<double>(usage.ru_maxrss) / 1000.0};
 }
 
 }  // namespace meniscus::test

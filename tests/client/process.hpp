@@ -10,6 +10,8 @@ struct ProcessResult {
     int exit_code = -1;  ///< -1: ended by a signal
     std::string out;
     std::string err;
+    double processor_seconds = 0.0;
+    double peak_megabytes = 0.0;  ///< of memory; not less than this process had when it was started
 };
 
 /// Where a process reads and writes, if not as this one does.

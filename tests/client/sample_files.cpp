@@ -11,6 +11,7 @@
 #include "formats/bgeo_sample.hpp"
 #include "formats/bi4_sample.hpp"
 #include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/read_budget.hpp"
 #include "formats/bytes/scalar.hpp"
 #include "formats/containers/pysph_npz.hpp"
 #include "formats/meshes/mesh_file.hpp"
@@ -189,7 +190,9 @@ void add_files_of_others(std::vector<Sample>& out) {
     out.push_back({"npz of PySPH", sample_pysph_npz(),
                    [](const std::string& bytes) { (void)formats::read_npz("sample", bytes, small_limits); }});
     out.push_back({"pickle", sample_pickle(), [](const std::string& bytes) {
-                       (void)formats::pysph_arrays(formats::ByteCursor("sample", {}), bytes);
+                       const formats::ByteCursor at("sample", {});
+                       formats::ReadBudget budget(small_limits, 0, at);
+                       (void)formats::pysph_arrays(at, bytes, budget);
                    }});
 }
 

@@ -1,4 +1,5 @@
 #include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/read_budget.hpp"
 #include "formats/containers/pysph_npz.hpp"
 #include "formats/meshes/mesh_file.hpp"
 #include "formats/meshes/mesh_readers.hpp"
@@ -138,7 +139,9 @@ Seeds bi4_seeds() {
 
 void pickle(Bytes bytes) {
     may_refuse([&] {
-        for (const formats::NamedNpyArray& array : formats::pysph_arrays(formats::ByteCursor(name, {}), bytes))
+        const formats::ByteCursor at(name, {});
+        formats::ReadBudget budget(limits, 0, at);
+        for (const formats::NamedNpyArray& array : formats::pysph_arrays(at, bytes, budget))
             for (std::size_t i = 0; array.array.unread.empty() && i < array.array.shape.at(0); ++i)
                 (void)array.array.at(i, 0);
     });

@@ -13,6 +13,8 @@ std::span<const Attack> attacks() {
         {"greedy-names", "an uploader that takes all sessions, and deletes 300 behind a long frame", greedy_names},
         {"gzip-bomb", "512 MiB of zeros, compressed by gzip, without a token", gzip_bomb},
         {"half-open-calls", "500 calls that begin and send no message", half_open_calls},
+        {"hostile-files", "files that the command line converts: bombs, and those that lead to other files",
+         hostile_files},
         {"large-sessions", "six sessions that take all the memory of reconstructions, beside ten small ones",
          large_sessions},
         {"proxied-strangers", "600,000 resets, and headers without an end, through the shipped proxies",

@@ -18,6 +18,7 @@ std::vector<Figure> garbled_requests(const std::string& program);
 std::vector<Figure> greedy_names(const std::string& program);
 std::vector<Figure> gzip_bomb(const std::string& program);
 std::vector<Figure> half_open_calls(const std::string& program);
+std::vector<Figure> hostile_files(const std::string& program);
 std::vector<Figure> large_sessions(const std::string& program);
 std::vector<Figure> proxied_strangers(const std::string& program);
 std::vector<Figure> restarts(const std::string& program);

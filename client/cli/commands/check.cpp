@@ -16,6 +16,7 @@
 #include "cli/surfaces/mesh_output.hpp"
 #include "formats/bytes/standard_streams.hpp"
 #include "formats/meshes/mesh_file.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::cli {
 namespace {
@@ -36,7 +37,7 @@ void check(const CheckOptions& options) {
         const compare::Defects defects = defects_of(mesh);
         check.say(formats::input_name(path), defects);
         if (options.verbosity.quiet) continue;
-        std::cout << formats::input_name(path) << ": " << mesh.triangles.size() << " triangles, "
+        std::cout << visible(formats::input_name(path)) << ": " << mesh.triangles.size() << " triangles, "
                   << (defects.closed() ? "closed, manifold and consistently oriented" : defects.text()) << '\n';
     }
     check.finish();

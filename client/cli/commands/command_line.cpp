@@ -18,6 +18,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/refusal.hpp"
+#include "cli/print/visible_errors.hpp"
 #include "cli/print/warnings.hpp"
 #include "cli/surfaces/mesh_check.hpp"
 #include "meniscus/error.hpp"
@@ -79,6 +80,7 @@ int end_of_printing() {
 }  // namespace
 
 int run(int argc, const char* const* argv) {
+    const VisibleErrors visible_errors;
     // An error is one line of this program: protobuf would add one of its own for bytes that do not parse.
     google::protobuf::SetLogHandler(nullptr);
     CLI::App app("Adaptive surfaces of simulated fluid particles", "meniscus");

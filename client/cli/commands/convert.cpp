@@ -14,6 +14,7 @@
 #include "cli/sequence/distinct_files.hpp"
 #include "cli/sequence/file_pattern.hpp"
 #include "cli/sequence/recording_files.hpp"
+#include "cli/surfaces/mesh_edits.hpp"
 #include "cli/surfaces/mesh_output.hpp"
 #include "formats/bytes/atomic_file.hpp"
 #include "formats/bytes/extension.hpp"
@@ -32,6 +33,7 @@ struct ConvertOptions {
     std::string directory;
     std::optional<MeshFormat> format = MeshFormat::ply;  ///< none: the particles
     ParticleFormat particle_format = ParticleFormat::vtk;
+    MeshEdits edits;
     Verbosity verbosity;
 
     std::filesystem::path path_of(const formats::RecordedFrame& frame) const {
@@ -85,7 +87,7 @@ void convert_recording(const ConvertOptions& options) {
             const client::ReceivedFrame mesh = recording.mesh(frame);
             Surface surface(mesh);
             if (*options.format != MeshFormat::bricks) require_mesh(surface, recording.path());
-            write_surface(path, surface, *options.format);
+            MeshOutput(surface, *options.format, options.edits).write(path);
         } else {
             std::cerr << "frame " << frame.index << ": its mesh was not recorded\n";
             continue;
@@ -131,6 +133,8 @@ ConvertOptions recording_options(const ConvertFlags& flags) {
     } else if (format) {
         options.format = find_by_name<MeshFormat>(*format);
     }
+    options.edits.without_levels = flags.files.without_levels;
+    if (options.format) options.edits.require(*options.format);
     return options;
 }
 
@@ -183,6 +187,7 @@ void add_convert(CLI::App& app) {
         auto* particles = command.add_flag("--particles", flags->particles,
                                            "Take IN for particles; without this, a file with faces is a mesh");
         command.add_flag("--mesh", flags->mesh, "Take IN for a mesh")->excludes(particles);
+        add_triangle_levels_flag(command, files.without_levels);
     }
     flags->recording.add_range_to(command);
     add_read_limits(command, files.limits);

@@ -104,7 +104,8 @@ void write(const FileConversion& conversion, const FileToConvert& file, const fo
     say(conversion, file, particles.count(), "particles");
 }
 
-void write(const FileConversion& conversion, const FileToConvert& file, const formats::TriangleMesh& mesh) {
+void write(const FileConversion& conversion, const FileToConvert& file, formats::TriangleMesh mesh) {
+    if (conversion.without_levels) formats::leave_out_levels(mesh);
     const std::string name = format_name(file.out, conversion.format, "--format");
     formats::write_mesh(file.out, mesh, written_mesh_format(name));
     say(conversion, file, mesh.triangles.size(), "triangles");

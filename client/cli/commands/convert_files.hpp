@@ -19,6 +19,7 @@ struct FileConversion {
     std::optional<std::string> input_format;  ///< name of a format of either; none: the extension's
     std::optional<std::string> format;        ///< of `out`, likewise
     std::optional<FileContent> content;       ///< none: what the file has, see content_of()
+    bool without_levels = false;              ///< meshes are written without the levels of their triangles
     formats::ReadLimits limits;
     FrameSelection selection;
     Verbosity verbosity;

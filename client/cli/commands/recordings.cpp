@@ -63,9 +63,9 @@ nlohmann::ordered_json describe(const formats::Recording& recording, bool verify
 }
 
 void print(const nlohmann::ordered_json& recording) {
-    std::cout << recording["file"].get<std::string>() << "  ";
+    std::cout << visible(recording["file"].get<std::string>()) << "  ";
     if (recording.contains("error")) {
-        std::cout << "unreadable: " << recording["error"].get<std::string>() << '\n';
+        std::cout << "unreadable: " << visible(recording["error"].get<std::string>()) << '\n';
         return;
     }
     const auto& settings = recording["settings"];

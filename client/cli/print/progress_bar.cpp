@@ -25,6 +25,12 @@ std::size_t columns_of_terminal() {
     return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
+/// Past std::cerr, which shows controls as text; the terminal has what came before.
+void write_line(const std::string& text) {
+    std::cerr << std::flush;
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
 }  // namespace
 
 std::string progress_line(std::size_t done, std::size_t all, double seconds, std::size_t columns) {
@@ -57,7 +63,7 @@ double ProgressBar::seconds() const {
 }
 
 void ProgressBar::erase() const {
-    if (drawn_) std::cerr << erase_line << std::flush;
+    if (drawn_) write_line(std::string(erase_line));
 }
 
 void ProgressBar::advance() {
@@ -66,9 +72,7 @@ void ProgressBar::advance() {
 }
 
 void ProgressBar::draw() const {
-    if (drawn_)
-        std::cerr << std::string(erase_line) + progress_line(done_, frames_, seconds(), columns_of_terminal())
-                  << std::flush;
+    if (drawn_) write_line(std::string(erase_line) + progress_line(done_, frames_, seconds(), columns_of_terminal()));
 }
 
 }  // namespace meniscus::cli

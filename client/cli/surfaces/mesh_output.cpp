@@ -62,6 +62,7 @@ MeshOutput::MeshOutput(Surface& surface, MeshFormat format, const MeshEdits& edi
     if (edits.box) editing::keep_touching(triangles, *edits.box);
     if (check) defects_ = defects_of(triangles);
     if (edits.quads) editing::merge_to_quads(triangles);
+    if (edits.without_levels) formats::leave_out_levels(triangles);
 }
 
 void MeshOutput::write(const std::filesystem::path& path, std::optional<double> time) const {

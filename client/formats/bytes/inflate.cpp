@@ -41,8 +41,7 @@ Inflater::~Inflater() = default;
 void Inflater::extend(std::string& out, std::uint64_t size) {
     z_stream& z = stream_->z;
     while (!at_end_ && out.size() < size) {
-        if (z.avail_in == 0) {
-            if (compressed_.empty()) at_.fail("truncated: " + what_ + " ends before its compressed data do");
+        if (z.avail_in == 0 && !compressed_.empty()) {
             const std::size_t next = std::min<std::size_t>(compressed_.size(), std::numeric_limits<uInt>::max());
             z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(compressed_.data()));
             z.avail_in = static_cast<uInt>(next);
@@ -56,7 +55,9 @@ void Inflater::extend(std::string& out, std::uint64_t size) {
         const int status = ::inflate(&z, Z_NO_FLUSH);
         out.resize(before + room - z.avail_out);
         at_end_ = status == Z_STREAM_END;
-        if (status != Z_OK && status != Z_STREAM_END && status != Z_BUF_ERROR)
+        // No progress, though there is room. Not before: zlib holds back bits, of which some kilobytes may still come.
+        if (status == Z_BUF_ERROR) at_.fail("truncated: " + what_ + " ends before its compressed data do");
+        if (status != Z_OK && status != Z_STREAM_END)
             at_.fail(what_ + " has damaged compressed data (" + (z.msg != nullptr ? z.msg : "zlib") + ")");
     }
 }

@@ -1,4 +1,5 @@
-// Memory that the contents of a file may still take.
+// What a file may still make grow. Nothing is given back, though memory is: what a file says again and again costs time
+// each time, so that the budget bounds both.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +23,10 @@ public:
     /// To be called before the memory is allocated. what: that which needs it. Throws by `at` if too little is left.
     void take(std::uint64_t bytes, const ByteCursor& at, std::string_view what) {
         if (bytes > left_)
-            at.fail(std::string(what) + " takes " + std::to_string(bytes) + " bytes, " + std::to_string(left_) +
-                    " are left of the " + std::to_string(most_) + " that a file may take with all that it holds");
+            at.fail(std::to_string(bytes) + " bytes for " + std::string(what) + ", but only " + std::to_string(left_) +
+                    " are left of the " + std::to_string(most_) + " that a file may take with all that it makes grow");
         left_ -= bytes;
     }
-    void give_back(std::uint64_t bytes) { left_ += bytes; }
 
 private:
     std::uint64_t most_;

@@ -5,9 +5,12 @@
 
 namespace meniscus::formats {
 
+/// Half of the machine's memory, 8 GiB at most.
+std::uint64_t usual_most_bytes();
+
 struct ReadLimits {
-    /// Most bytes of a file, and of all that it holds once it is decompressed.
-    std::uint64_t most_bytes = std::uint64_t{8} << 30;
+    /// Most bytes of a file, and of all that it makes grow: what is decompressed, parsed, or made of its numbers.
+    std::uint64_t most_bytes = usual_most_bytes();
 };
 
 }  // namespace meniscus::formats

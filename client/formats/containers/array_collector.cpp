@@ -11,7 +11,6 @@
 #include <unordered_set>
 #include <utility>
 
-#include "formats/bytes/byte_cursor.hpp"
 #include "meniscus/particle_frame.hpp"
 
 namespace meniscus::formats {
@@ -182,17 +181,25 @@ void ArrayBuilder::finish() {
 void ArrayCollector::add(ArrayBuilder array) {
     array.finish();
     if (!array.wanted()) return leave_out(array.values_.name, array.reason_);
+    expect_room();
     arrays_.push_back(std::move(array.values_));
 }
 
+void ArrayCollector::expect_room() const {
+    if (arrays_.size() + left_out_.size() == most_arrays)
+        at_.fail("has more than " + std::to_string(most_arrays) + " arrays");
+}
+
 void ArrayCollector::leave_out(std::string_view name, std::string_view reason) {
+    expect_room();
     left_out_.push_back(array_name(name) + " (" + std::string(reason) + ")");
 }
 
 void ArrayCollector::finish(std::vector<NamedValues>& arrays, std::vector<std::string>& left_out) {
-    put_together(arrays_);
+    std::vector<NamedValues> gathered = std::exchange(arrays_, {});
+    put_together(gathered);
     std::unordered_set<std::string> taken;
-    for (NamedValues& array : arrays_) {
+    for (NamedValues& array : gathered) {
         if (is_reserved(array.name))
             leave_out(array.name, "a name with another meaning");
         else if (taken.contains(array.name))
@@ -204,8 +211,7 @@ void ArrayCollector::finish(std::vector<NamedValues>& arrays, std::vector<std::s
             arrays.push_back(std::move(array));
         }
     }
-    left_out = std::move(left_out_);
-    arrays_.clear();
+    left_out = std::exchange(left_out_, {});
 }
 
 std::string described(const std::vector<NamedValues>& arrays, const std::vector<std::string>& left_out) {

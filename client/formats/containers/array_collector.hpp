@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/bytes/byte_cursor.hpp"
 #include "formats/bytes/scalar.hpp"
 #include "formats/containers/named_values.hpp"
 
@@ -43,9 +44,15 @@ private:
     bool above_int32_ = false;  ///< an integer is above the largest int32
 };
 
+/// Most arrays that a file may have, those with it that are left out.
+inline constexpr std::size_t most_arrays = 4096;
+
 /// The arrays of a file, gathered in its order.
 class ArrayCollector {
 public:
+    /// at: of the file. add() and leave_out() throw by it for more than most_arrays.
+    explicit ArrayCollector(const ByteCursor& at) : at_(at) {}
+
     void add(ArrayBuilder array);
     void leave_out(std::string_view name, std::string_view reason);
 
@@ -58,6 +65,9 @@ public:
     void finish(std::vector<NamedValues>& arrays, std::vector<std::string>& left_out);
 
 private:
+    void expect_room() const;
+
+    ByteCursor at_;
     std::vector<NamedValues> arrays_;
     std::vector<std::string> left_out_;
 };

@@ -1,5 +1,6 @@
 #include "formats/containers/npy.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
@@ -56,7 +57,6 @@ public:
     }
 
     std::vector<std::size_t> tuple(std::string_view key) const {
-        constexpr std::size_t most_dimensions = 64;
         std::string_view rest = after(key);
         if (!rest.starts_with('(')) at_.fail("an .npy header whose " + std::string(key) + " is no tuple");
         rest = trimmed(rest.substr(1));
@@ -87,8 +87,11 @@ private:
 }  // namespace
 
 std::string shape_text(const std::vector<std::size_t>& shape) {
+    constexpr std::size_t most_shown = 8;
     std::string out = "(";
-    for (std::size_t i = 0; i < shape.size(); ++i) out += (i == 0 ? "" : ", ") + std::to_string(shape[i]);
+    for (std::size_t i = 0; i < std::min(shape.size(), most_shown); ++i)
+        out += (i == 0 ? "" : ", ") + std::to_string(shape[i]);
+    if (shape.size() > most_shown) out += ", ...";
     return out + (shape.size() == 1 ? ",)" : ")");
 }
 

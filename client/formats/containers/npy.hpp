@@ -34,7 +34,10 @@ struct NpyArray {
     }
 };
 
-/// "(3, 4)"
+/// Most sizes of a shape, as numpy has it.
+inline constexpr std::size_t most_dimensions = 64;
+
+/// "(3, 4)", with "..." in place of what comes after the first eight sizes.
 std::string shape_text(const std::vector<std::size_t>& shape);
 
 /// The name that numpy has for the type of an array, little-endian: "<f4".

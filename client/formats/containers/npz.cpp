@@ -17,17 +17,15 @@ void collect_rows(ArrayCollector& collector, std::string_view name, const NpyArr
 }
 
 NpzReader::NpzReader(const std::string& name, std::string_view bytes, const ReadLimits& limits)
-    : at_(name, bytes), budget_(limits, bytes.size(), at_), members_(zip_members(at_, bytes)) {
+    : at_(name, bytes), budget_(limits, bytes.size(), at_), members_(zip_members(at_, bytes, budget_)) {
     constexpr std::string_view ending = ".npy";
     for (const ZipMember& member : members_) {
         std::string_view plain = member.name;
         if (plain.ends_with(ending)) plain.remove_suffix(ending.size());
         names_.emplace_back(plain);
     }
-}
-
-bool NpzReader::has(std::string_view name) const {
-    return std::find(names_.begin(), names_.end(), name) != names_.end();
+    for (std::size_t i = 0; i < names_.size(); ++i)
+        if (!places_.emplace(names_[i], i).second) at_.fail("has two arrays " + quoted(names_[i]));
 }
 
 void NpzReader::collect(ArrayCollector& collector, std::size_t count, std::initializer_list<std::string_view> others) {
@@ -37,11 +35,6 @@ void NpzReader::collect(ArrayCollector& collector, std::size_t count, std::initi
             collect_rows(collector, name, array, count, budget_, place);
         });
     }
-}
-
-const ZipMember& NpzReader::member(std::string_view name) const {
-    const auto found = std::find(names_.begin(), names_.end(), name);
-    return members_[static_cast<std::size_t>(found - names_.begin())];
 }
 
 }  // namespace meniscus::formats

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "formats/bytes/byte_cursor.hpp"
@@ -28,27 +29,25 @@ public:
     ReadBudget& budget() { return budget_; }
     /// The arrays' names without ".npy", in the order of the file.
     const std::vector<std::string>& names() const { return names_; }
-    bool has(std::string_view name) const;
+    bool has(std::string_view name) const { return places_.contains(name); }
 
     /// Calls use(array, cursor) with the array of this name, which the file has; the cursor's messages name it.
     template <class Use>
     void with(std::string_view name, const Use& use) {
         std::string held;
         const ByteCursor place(at_.name() + ": array " + quoted(name), {});
-        use(read_npy_array(place, contents(member(name), place, budget_, held)), place);
-        budget_.give_back(held.size());
+        use(read_npy_array(place, contents(members_[places_.at(name)], place, held)), place);
     }
 
     /// Gathers the arrays that have a row for each of `count` points, but for `others`, which mean something else.
     void collect(ArrayCollector& collector, std::size_t count, std::initializer_list<std::string_view> others);
 
 private:
-    const ZipMember& member(std::string_view name) const;
-
     ByteCursor at_;
     ReadBudget budget_;
     std::vector<ZipMember> members_;
-    std::vector<std::string> names_;  ///< of the members
+    std::vector<std::string> names_;                            ///< of the members
+    std::unordered_map<std::string_view, std::size_t> places_;  ///< of the names
 };
 
 }  // namespace meniscus::formats

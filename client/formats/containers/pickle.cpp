@@ -12,7 +12,8 @@ constexpr std::size_t most_values = 1'000'000;
 
 }  // namespace
 
-Pickle::Pickle(const ByteCursor& at, std::string_view bytes) : in_(at.name(), bytes) {
+Pickle::Pickle(const ByteCursor& at, std::string_view bytes, ReadBudget& budget)
+    : in_(at.name(), bytes), budget_(budget) {
     run();
 }
 
@@ -39,6 +40,7 @@ void Pickle::run() {
 void Pickle::push(Value value) {
     if (values_.size() == most_values) in_.fail("a pickle of more than " + std::to_string(most_values) + " values");
     items_ += value.items.size();
+    pay(sizeof(Value) + sizeof(Id) * (1 + value.items.size()));
     values_.push_back(std::move(value));
     stack_.push_back(static_cast<Id>(values_.size() - 1));
 }
@@ -76,6 +78,7 @@ void Pickle::gather(std::size_t count) {
 void Pickle::append(Value& to, std::vector<Id> items) {
     items_ += items.size();
     if (items_ > 4 * most_values) in_.fail("a pickle of more than " + std::to_string(4 * most_values) + " items");
+    pay(sizeof(Id) * items.size());
     to.items.insert(to.items.end(), items.begin(), items.end());
 }
 
@@ -84,7 +87,16 @@ void Pickle::get(std::uint64_t place) {
     if (found == memo_.end())
         in_.fail("no pickle: it uses value " + std::to_string(place) + ", which it does not have");
     if (stack_.size() >= 4 * most_values) in_.fail("a pickle of too many values");
+    pay(sizeof(Id));
     stack_.push_back(found->second);
+}
+
+void Pickle::remember(std::uint64_t place) {
+    constexpr std::size_t bytes_each = 64;  // of the map, a buckets' pointer included
+    top();
+    if (memo_.size() == most_values && !memo_.contains(place)) in_.fail("a pickle of too many values");
+    pay(bytes_each);
+    memo_[place] = stack_.back();
 }
 
 std::uint64_t Pickle::little_endian(std::size_t size) {
@@ -215,19 +227,11 @@ void Pickle::step(unsigned char operation) {
             const Id state = pop();
             return append(top(), {state});
         }
-        case 'q':    // BINPUT
-        case 'r': {  // LONG_BINPUT
-            const std::uint64_t place = little_endian(operation == 'q' ? 1 : 4);
-            top();
-            memo_[place] = stack_.back();
-            return;
-        }
-        case 0x94: {  // MEMOIZE
-            top();
-            const std::uint64_t place = memo_.size();
-            memo_[place] = stack_.back();
-            return;
-        }
+        case 'q':  // BINPUT
+        case 'r':  // LONG_BINPUT
+            return remember(little_endian(operation == 'q' ? 1 : 4));
+        case 0x94:  // MEMOIZE
+            return remember(memo_.size());
         case 'h':  // BINGET
             return get(little_endian(1));
         case 'j':  // LONG_BINGET

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/read_budget.hpp"
 
 namespace meniscus::formats {
 
@@ -39,8 +40,9 @@ public:
         std::vector<Id> items{};
     };
 
-    /// Throws by `at` for bytes that are no pickle, of an operation that is not read, or of too many values.
-    Pickle(const ByteCursor& at, std::string_view bytes);
+    /// budget: the values are taken from it. Throws by `at` for bytes that are no pickle, of an operation that is not
+    /// read, or of too many values.
+    Pickle(const ByteCursor& at, std::string_view bytes, ReadBudget& budget);
 
     Id root() const { return root_; }
     const Value& operator[](Id id) const { return values_[id]; }
@@ -55,6 +57,9 @@ private:
     void run();
     void step(unsigned char operation);
     void push(Value value);
+    void pay(std::size_t bytes) { budget_.take(bytes, in_, "its pickle"); }
+    /// Keeps the value on top of the stack.
+    void remember(std::uint64_t place);
     Id pop();
     /// The values since the last mark.
     std::vector<Id> pop_to_mark();
@@ -67,6 +72,7 @@ private:
     void append(Value& to, std::vector<Id> items);
 
     ByteCursor in_;
+    ReadBudget& budget_;
     std::vector<Value> values_;
     std::vector<Id> stack_;
     std::vector<std::size_t> marks_;

@@ -6,6 +6,9 @@
 namespace meniscus::formats {
 namespace {
 
+/// Memory of an element or a property, with what its readers keep of it.
+constexpr std::size_t header_line_bytes = 256;
+
 ScalarType type_by_name(std::string_view name, const ByteCursor& at) {
     using enum ScalarType;
     static constexpr std::array<std::pair<std::string_view, ScalarType>, 16> types{{
@@ -58,7 +61,8 @@ std::optional<std::size_t> PlyElement::list(std::string_view property) const {
     return std::nullopt;
 }
 
-PlyReader::PlyReader(const std::string& name, std::string_view bytes) : in_(name, bytes) {
+PlyReader::PlyReader(const std::string& name, std::string_view bytes, const ReadLimits& limits)
+    : in_(name, bytes), budget_(limits, bytes.size(), in_) {
     if (!bytes.starts_with("ply\n") && !bytes.starts_with("ply\r\n"))
         in_.fail("not a PLY file: it does not begin with 'ply'");
     in_.line();
@@ -79,12 +83,14 @@ PlyReader::PlyReader(const std::string& name, std::string_view bytes) : in_(name
                 in_.fail("PLY format " + quoted(format) + " is not known");
             has_format = true;
         } else if (keyword == "element") {
+            budget_.take(header_line_bytes, in_, "its header");
             PlyElement element;
             element.name = words.word();
             element.count = words.count("number of elements");
             elements_.push_back(std::move(element));
         } else if (keyword == "property") {
             if (elements_.empty()) in_.fail("a property before the first element");
+            budget_.take(header_line_bytes, in_, "its header");
             elements_.back().properties.push_back(parse_property(words));
         } else {
             in_.fail(quoted(keyword) + " is no keyword of a PLY header");
@@ -122,6 +128,7 @@ void PlyReader::read_rows(const PlyElement& element, const std::function<void(st
                          std::to_string(in_.remaining()) + " bytes follow");
             const auto items = static_cast<std::size_t>(count);
             in_.expect(binary_ ? items : items / 2, binary_ ? size_of(property.type) : 2, "list items");
+            if (items > values.lists[p].capacity()) budget_.take(sizeof(double) * items, in_, "a list");
             values.lists[p].resize(items);
             for (double& item : values.lists[p]) item = next(property.type);
         }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/read_budget.hpp"
 #include "formats/bytes/scalar.hpp"
 
 namespace meniscus::formats {
@@ -45,10 +46,11 @@ struct PlyRow {
 class PlyReader {
 public:
     /// Reads the header. Throws InvalidInput if it is not one.
-    PlyReader(const std::string& name, std::string_view bytes);
+    PlyReader(const std::string& name, std::string_view bytes, const ReadLimits& limits);
 
     const std::vector<PlyElement>& elements() const { return elements_; }
     ByteCursor& in() { return in_; }
+    ReadBudget& budget() { return budget_; }
 
     /// Throws InvalidInput unless `element.count` rows can still follow. To be called before memory is allocated for
     /// them.
@@ -62,6 +64,7 @@ private:
     double next(ScalarType type);
 
     ByteCursor in_;
+    ReadBudget budget_;
     std::optional<std::endian> binary_;  ///< none for ascii
     std::vector<PlyElement> elements_;
 };

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "formats/containers/array_collector.hpp"
 #include "formats/containers/pickle.hpp"
 
 namespace meniscus::formats {
@@ -24,7 +25,9 @@ std::optional<std::string> type_name(const Pickle& pickle, const Value& value) {
     const Value* state = pickle.item(value, 2);
     const Value* name = arguments == nullptr ? nullptr : pickle.item(*arguments, 0);
     const Value* order = state == nullptr ? nullptr : pickle.item(*state, 1);
-    if (name == nullptr) return std::nullopt;
+    constexpr std::size_t most_bytes = 16;  // of numpy's names of types: a text may be of any size, for each array
+    if (name == nullptr || name->text.size() > most_bytes) return std::nullopt;
+    if (order != nullptr && order->text.size() > most_bytes) return std::nullopt;
     return std::string(order == nullptr ? std::string_view("|") : order->text) + std::string(name->text);
 }
 
@@ -50,6 +53,9 @@ NpyArray numpy_array(const ByteCursor& at, const Pickle& pickle, std::string_vie
         array.unread = "no array of numbers";
         return array;
     }
+    if (state->shape->items.size() > most_dimensions)
+        at.fail("array " + quoted(name) + " has a shape of " + std::to_string(state->shape->items.size()) +
+                " sizes; arrays have at most " + std::to_string(most_dimensions));
     for (const Pickle::Id size : state->shape->items) {
         const Value& edge = pickle[size];
         if (edge.kind != Kind::integer || edge.number < 0)
@@ -92,10 +98,13 @@ const Value& kind_of_particles(const ByteCursor& at, const Pickle& pickle) {
 
 }  // namespace
 
-std::vector<NamedNpyArray> pysph_arrays(const ByteCursor& at, std::string_view pickled) {
-    const Pickle pickle(at, pickled);
+std::vector<NamedNpyArray> pysph_arrays(const ByteCursor& at, std::string_view pickled, ReadBudget& budget) {
+    const Pickle pickle(at, pickled, budget);
     const Value* arrays = pickle.find(kind_of_particles(at, pickle), "arrays");
     if (arrays == nullptr) at.fail("holds PySPH's particles without their arrays");
+    if (arrays->items.size() / 2 > most_arrays)
+        at.fail("holds " + std::to_string(arrays->items.size() / 2) + " arrays; at most " +
+                std::to_string(most_arrays) + " are read");
     std::vector<NamedNpyArray> out;
     for (std::size_t i = 0; i + 1 < arrays->items.size(); i += 2) {
         const std::string_view name = pickle.item(*arrays, i)->text;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/read_budget.hpp"
 #include "formats/containers/npy.hpp"
 
 namespace meniscus::formats {
@@ -16,7 +17,7 @@ struct NamedNpyArray {
 };
 
 /// pickled: what "particles.npy" holds behind its header. The arrays of "fluid", or of the only kind that there is;
-/// borrowed from it. Throws by `at` for other contents.
-std::vector<NamedNpyArray> pysph_arrays(const ByteCursor& at, std::string_view pickled);
+/// borrowed from it. budget: the pickle's values are taken from it. Throws by `at` for other contents.
+std::vector<NamedNpyArray> pysph_arrays(const ByteCursor& at, std::string_view pickled, ReadBudget& budget);
 
 }  // namespace meniscus::formats

@@ -26,13 +26,13 @@ struct ZipMember {
     std::string_view stored;  ///< its bytes in the file
 };
 
-/// The members, by the directory at the end of the file. Throws by `at` for anything else, and for encrypted members
-/// and other compression.
-std::vector<ZipMember> zip_members(const ByteCursor& at, std::string_view bytes);
+/// The members, by the directory at the end of the file. What they announce to have decompressed is taken from the
+/// budget. Throws by `at` for anything else, for encrypted members and other compression, and for members that share
+/// bytes of the file.
+std::vector<ZipMember> zip_members(const ByteCursor& at, std::string_view bytes, ReadBudget& budget);
 
-/// A member's bytes: those in the file, or decompressed ones in `held`, which are taken from the budget first. Throws
-/// by `at` for damage.
-std::string_view contents(const ZipMember& member, const ByteCursor& at, ReadBudget& budget, std::string& held);
+/// A member's bytes: those in the file, or decompressed ones in `held`. Throws by `at` for damage.
+std::string_view contents(const ZipMember& member, const ByteCursor& at, std::string& held);
 
 /// Writes members, stored, atomically.
 class ZipWriter {

@@ -110,9 +110,22 @@ ZipMember next_member(std::string_view& directory, const ByteCursor& at, std::st
     return member;
 }
 
+/// One stream of bytes under many names would be decompressed for each of them.
+void refuse_overlap(const std::vector<ZipMember>& members, const ByteCursor& at) {
+    std::vector<const ZipMember*> in_order;
+    for (const ZipMember& member : members)
+        if (!member.stored.empty()) in_order.push_back(&member);
+    std::sort(in_order.begin(), in_order.end(),
+              [](const auto* a, const auto* b) { return a->stored.data() < b->stored.data(); });
+    for (std::size_t i = 1; i < in_order.size(); ++i)
+        if (const ZipMember& a = *in_order[i - 1], &b = *in_order[i];
+            a.stored.data() + a.stored.size() > b.stored.data())
+            at.fail("members " + quoted(a.name) + " and " + quoted(b.name) + " share bytes of the file");
+}
+
 }  // namespace
 
-std::vector<ZipMember> zip_members(const ByteCursor& at, std::string_view bytes) {
+std::vector<ZipMember> zip_members(const ByteCursor& at, std::string_view bytes, ReadBudget& budget) {
     const Directory place = find_directory(at, bytes);
     std::string_view directory = piece_of(bytes, place.first, place.size, at, "its zip directory");
     std::vector<ZipMember> members;
@@ -121,17 +134,19 @@ std::vector<ZipMember> zip_members(const ByteCursor& at, std::string_view bytes)
             at.fail("a zip file of more than " + std::to_string(most_members) + " members");
         members.push_back(next_member(directory, at, bytes));
     }
+    refuse_overlap(members, at);
+    for (const ZipMember& member : members)
+        if (member.deflated) budget.take(member.size, at, "member " + quoted(member.name));
     return members;
 }
 
-std::string_view contents(const ZipMember& member, const ByteCursor& at, ReadBudget& budget, std::string& held) {
+std::string_view contents(const ZipMember& member, const ByteCursor& at, std::string& held) {
     const std::string what = "member " + quoted(member.name);
     std::string_view bytes = member.stored;
     if (member.deflated) {
         if (member.size / most_deflation > member.stored.size())
             at.fail(what + ": " + std::to_string(member.size) + " bytes are announced, but only " +
                     std::to_string(member.stored.size()) + " compressed ones are there");
-        budget.take(member.size, at, what);
         held = inflate(at, member.stored, Deflate::raw, member.size, what);
         bytes = held;
     }

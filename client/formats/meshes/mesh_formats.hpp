@@ -21,7 +21,7 @@
 
 namespace meniscus::formats {
 
-enum class MeshFormat { ply, obj, bricks, vtk, vtp, npz, glb, usda };
+enum class MeshFormat { ply, obj, bricks, vtk, vtp, vtu, npz, glb, usda, stl };
 
 struct MeshFormatTraits {
     bool compressible = false;
@@ -49,9 +49,12 @@ inline constexpr std::array mesh_formats{
     MeshFormatRow{MeshFormat::vtk, "vtk", ".vtk", read_mesh_vtk, write_mesh_vtk, nullptr, {.quads = true}},
     MeshFormatRow{
         MeshFormat::vtp, "vtp", ".vtp", read_mesh_vtp, write_mesh_vtp, nullptr, {.compressible = true, .quads = true}},
+    MeshFormatRow{
+        MeshFormat::vtu, "vtu", ".vtu", read_mesh_vtp, write_mesh_vtu, nullptr, {.compressible = true, .quads = true}},
     MeshFormatRow{MeshFormat::npz, "npz", ".npz", read_mesh_npz, write_mesh_npz},
     MeshFormatRow{MeshFormat::glb, "glb", ".glb", nullptr, write_glb, nullptr, {.compressible = true}},
     MeshFormatRow{MeshFormat::usda, "usda", ".usda", nullptr, write_usda},
+    MeshFormatRow{MeshFormat::stl, "stl", ".stl", nullptr, write_stl},
 };
 
 constexpr const MeshFormatRow& row_of(MeshFormat format) {

@@ -48,7 +48,7 @@ TriangleMesh read_mesh_npz(const std::string& name, std::string_view bytes, cons
             for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
                 mesh.levels.push_back(to_cell_level(array.at(i, 0)));
         });
-    ArrayCollector collector;
+    ArrayCollector collector(file.at());
     file.collect(collector, count, {"positions", "triangles", "normals", "levels"});
     std::vector<std::string> left_out;
     collector.finish(mesh.attributes, left_out);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/read_budget.hpp"
 #include "formats/containers/array_collector.hpp"
 #include "formats/containers/face_index.hpp"
 #include "formats/containers/ply.hpp"
@@ -15,7 +16,10 @@ namespace meniscus::formats {
 namespace {
 
 /// Appends a polygon, given by indices into the positions, as a fan of triangles of one level.
-void append_polygon(TriangleMesh& mesh, const std::vector<std::uint32_t>& corners) {
+void append_polygon(TriangleMesh& mesh, const std::vector<std::uint32_t>& corners, ReadBudget& budget,
+                    const ByteCursor& at) {
+    constexpr std::size_t bytes_each = sizeof(Triangle) + 1;  // with its level
+    if (corners.size() > 2) budget.take(bytes_each * (corners.size() - 2), at, "the triangles");
     for (std::size_t i = 2; i < corners.size(); ++i) mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
 }
 
@@ -35,8 +39,8 @@ bool is_ignored(std::string_view keyword) {
 
 }  // namespace
 
-TriangleMesh read_mesh_ply(const std::string& name, std::string_view bytes, const ReadLimits& /*limits*/) {
-    PlyReader ply(name, bytes);
+TriangleMesh read_mesh_ply(const std::string& name, std::string_view bytes, const ReadLimits& limits) {
+    PlyReader ply(name, bytes, limits);
     TriangleMesh mesh;
     bool has_vertices = false;
     for (const PlyElement& element : ply.elements()) {
@@ -51,7 +55,10 @@ TriangleMesh read_mesh_ply(const std::string& name, std::string_view bytes, cons
             });
             expect_addressable(element.count, ply.in());
             ply.expect_rows(element);
-            ArrayCollector collector;
+            constexpr std::size_t place_bytes = sizeof(mesh.positions[0]) + sizeof(Normal);
+            ply.budget().take((place_bytes + element.properties.size() * sizeof(float)) * element.count, ply.in(),
+                              "its vertices");
+            ArrayCollector collector(ply.in());
             std::vector<std::pair<std::size_t, ArrayBuilder>> arrays;  // by property
             for (std::size_t p = 0; p < element.properties.size(); ++p) {
                 const PlyProperty& property = element.properties[p];
@@ -83,7 +90,7 @@ TriangleMesh read_mesh_ply(const std::string& name, std::string_view bytes, cons
             ply.read_rows(element, [&](std::size_t, const PlyRow& row) {
                 corners.clear();
                 for (const double v : row.lists[*list]) corners.push_back(to_index(v, mesh.positions.size(), ply.in()));
-                append_polygon(mesh, corners);
+                append_polygon(mesh, corners, ply.budget(), ply.in());
                 if (!level) return;
                 const double l = row.scalars[*level];
                 mesh.levels.resize(mesh.triangles.size(),
@@ -104,8 +111,9 @@ int level_of_group(std::string_view group) {
     return level ? level_byte(*level) : -1;
 }
 
-TriangleMesh read_obj(const std::string& name, std::string_view bytes, const ReadLimits& /*limits*/) {
+TriangleMesh read_obj(const std::string& name, std::string_view bytes, const ReadLimits& limits) {
     ByteCursor in(name, bytes);
+    ReadBudget budget(limits, bytes.size(), in);
     TriangleMesh mesh;
     std::vector<Normal> normals;
     std::vector<std::uint32_t> corners;
@@ -115,6 +123,7 @@ TriangleMesh read_obj(const std::string& name, std::string_view bytes, const Rea
         if (!words.skip_space()) continue;
         const std::string_view keyword = words.word();
         if (keyword == "v") {
+            budget.take(sizeof(mesh.positions[0]), in, "its vertices");
             auto& position = mesh.positions.emplace_back();
             for (double& x : position) {
                 const std::string_view text = words.word();
@@ -122,6 +131,7 @@ TriangleMesh read_obj(const std::string& name, std::string_view bytes, const Rea
                 mesh.wide = mesh.wide || significant_digits(text) > std::numeric_limits<float>::max_digits10;
             }
         } else if (keyword == "vn") {
+            budget.take(sizeof(Normal), in, "its normals");
             normals.push_back({static_cast<float>(words.number("nx")), static_cast<float>(words.number("ny")),
                                static_cast<float>(words.number("nz"))});
         } else if (keyword == "g") {
@@ -134,9 +144,11 @@ TriangleMesh read_obj(const std::string& name, std::string_view bytes, const Rea
                 double index = to_number(corner.substr(0, corner.find('/')), in, "vertex of a face");
                 // Negative ones count from the end.
                 index = index < 0.0 ? index + static_cast<double>(mesh.positions.size()) : index - 1.0;
+                if (corners.size() == corners.capacity())
+                    budget.take(sizeof(corners[0]) * (corners.size() + 1), in, "the corners of a face");
                 corners.push_back(to_index(index, mesh.positions.size(), in));
             }
-            append_polygon(mesh, corners);
+            append_polygon(mesh, corners, budget, in);
             if (level >= 0) mesh.levels.resize(mesh.triangles.size(), static_cast<std::uint8_t>(level));
         } else if (!is_ignored(keyword)) {
             in.fail(quoted(keyword) + " is no keyword of an OBJ file");

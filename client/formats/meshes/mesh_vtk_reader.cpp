@@ -24,8 +24,8 @@ TriangleMesh to_triangle_mesh(VtkDataset dataset) {
 
 }  // namespace
 
-TriangleMesh read_mesh_vtk(const std::string& name, std::string_view bytes, const ReadLimits& /*limits*/) {
-    return to_triangle_mesh(read_legacy_vtk(name, bytes, VtkUse::mesh));
+TriangleMesh read_mesh_vtk(const std::string& name, std::string_view bytes, const ReadLimits& limits) {
+    return to_triangle_mesh(read_legacy_vtk(name, bytes, limits, VtkUse::mesh));
 }
 
 TriangleMesh read_mesh_vtp(const std::string& name, std::string_view bytes, const ReadLimits& limits) {

@@ -39,7 +39,7 @@ void write_mesh_vtk(const std::filesystem::path& path, const TriangleMesh& mesh,
     }
     if (!mesh.normals.empty() || !mesh.attributes.empty()) out += "\nPOINT_DATA " + points + "\n";
     if (!mesh.normals.empty()) {
-        out += "NORMALS normals float\n";
+        out += "NORMALS Normals float\n";
         for (const Normal& normal : mesh.normals)
             for (const float x : normal) store(out, x, std::endian::big);
         out += '\n';

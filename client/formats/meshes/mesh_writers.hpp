@@ -25,6 +25,10 @@ void write_obj(const std::filesystem::path& path, const TriangleMesh& mesh, cons
 void write_mesh_vtk(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& writing = {});
 /// VTK's XML: the same, as base64. Compressed by zlib, which halves the file and takes longer.
 void write_mesh_vtp(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& writing = {});
+/// The same as an unstructured grid, which programs read that know no polygonal data.
+void write_mesh_vtu(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& writing = {});
+/// Binary STL: three corners and a normal for each triangle, all float32. It has no place for anything else.
+void write_stl(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& writing = {});
 /// Arrays positions (N, 3), triangles (M, 3), normals, levels, and the attributes by their names.
 void write_mesh_npz(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& writing = {});
 

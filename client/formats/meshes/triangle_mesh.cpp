@@ -25,4 +25,9 @@ TriangleMesh to_triangles(const Mesh& mesh) {
     return out;
 }
 
+void leave_out_levels(TriangleMesh& mesh) {
+    mesh.levels.clear();
+    mesh.quad_levels.clear();
+}
+
 }  // namespace meniscus::formats

@@ -31,5 +31,7 @@ struct TriangleMesh {
 };
 
 TriangleMesh to_triangles(const Mesh& mesh);
+/// The triangles and quadrilaterals have none afterwards.
+void leave_out_levels(TriangleMesh& mesh);
 
 }  // namespace meniscus::formats

@@ -22,6 +22,7 @@ constexpr std::string_view gzip_magic = "\x1f\x8b";
 constexpr std::int32_t version = 5;
 /// More than any program defines: definitions are small, so that their memory is.
 constexpr std::int32_t most_attributes = 4096;
+constexpr std::int32_t most_strings = 1'000'000;  ///< of all attributes together, as a string may take no byte
 constexpr std::size_t number_bytes = 4;
 
 /// The file from its beginning on, decompressed as far as it has been read.
@@ -77,7 +78,8 @@ struct Attribute {
     std::optional<ScalarType> type;  ///< none: names of strings, which are no values
 };
 
-Attribute read_attribute(Bytes& in, const ByteCursor& at) {
+/// strings: of the attributes before; those of this one are added.
+Attribute read_attribute(Bytes& in, const ByteCursor& at, std::int32_t& strings) {
     enum Kind : std::int32_t { real = 0, integer = 1, text = 2, string_index = 4, vector = 5 };
     Attribute attribute;
     attribute.name = in.text("name of an attribute");
@@ -92,8 +94,12 @@ Attribute read_attribute(Bytes& in, const ByteCursor& at) {
             attribute.type = ScalarType::int32;
             break;
         case string_index: {
-            const std::int32_t strings = in.count("number of strings");
-            for (std::int32_t i = 0; i < strings; ++i) in.text("a string");
+            const std::int32_t count = in.count("number of strings");
+            if (count > most_strings - strings)
+                at.fail("attribute " + quoted(attribute.name) + " has " + std::to_string(count) + " strings; at most " +
+                        std::to_string(most_strings) + " are read of all attributes");
+            strings += count;
+            for (std::int32_t i = 0; i < count; ++i) in.text("a string");
             return attribute;
         }
         default:
@@ -127,8 +133,9 @@ Header read_header(Bytes& in, const ByteCursor& at) {
     if (attributes > most_attributes)
         at.fail("has " + std::to_string(attributes) + " point attributes, at most " + std::to_string(most_attributes) +
                 " are read");
+    std::int32_t strings = 0;
     for (std::int32_t i = 0; i < attributes; ++i) {
-        header.attributes.push_back(read_attribute(in, at));
+        header.attributes.push_back(read_attribute(in, at, strings));
         header.row_numbers += header.attributes.back().size;
     }
     return header;
@@ -153,7 +160,7 @@ Particles read_bgeo(const std::string& name, std::string_view bytes, const ReadL
             particles.positions[3 * i + axis] =
                 load<float>(rows.data() + i * row_bytes + number_bytes * axis, std::endian::big);
 
-    ArrayCollector collector;
+    ArrayCollector collector(at);
     std::size_t begin = 4 * number_bytes;
     for (const Attribute& attribute : header.attributes) {
         if (attribute.type) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/read_budget.hpp"
 #include "formats/bytes/scalar.hpp"
 #include "formats/containers/array_collector.hpp"
 #include "formats/particles/particle_readers.hpp"
@@ -187,11 +188,14 @@ std::string_view usual_name(std::string_view name) {
 
 }  // namespace
 
-Particles read_bi4(const std::string& name, std::string_view bytes, const ReadLimits& /*limits*/) {
+Particles read_bi4(const std::string& name, std::string_view bytes, const ReadLimits& limits) {
     const Bi4File file(name, bytes);
+    ReadBudget budget(limits, bytes.size(), file.at());
     const Bi4Array& place = *(file.find("Posd") != nullptr ? file.find("Posd") : file.find("Pos"));
     if (!place.type || place.type->components != 3 || is_integer(place.type->type))
         file.at().fail("array " + quoted(place.name) + " has no three coordinates a particle");
+    // The rows' numbers, and coordinates with their remainders.
+    budget.take((sizeof(std::size_t) + 6 * sizeof(float)) * place.count, file.at(), "the particles");
     const std::vector<std::size_t> rows = fluid_rows(file, place.count);
     const auto number = [&](const Bi4Array& array, std::size_t row, std::size_t component) {
         return load_scalar(array.type->type,
@@ -205,7 +209,7 @@ Particles read_bi4(const std::string& name, std::string_view bytes, const ReadLi
         for (std::size_t axis = 0; axis < 3; ++axis)
             set_coordinate(particles, particles.positions.size(), number(place, rows[i], axis), file.at());
 
-    ArrayCollector collector;
+    ArrayCollector collector(file.at());
     for (const Bi4Array& array : file.arrays()) {
         if (array.name == "Pos" || array.name == "Posd") continue;
         if (!array.type) {
@@ -214,6 +218,7 @@ Particles read_bi4(const std::string& name, std::string_view bytes, const ReadLi
             collector.leave_out(
                 array.name, std::to_string(array.count) + " values for " + std::to_string(place.count) + " particles");
         } else {
+            budget.take(sizeof(float) * array.type->components * array.count, file.at(), "array " + quoted(array.name));
             ArrayBuilder values(usual_name(array.name), array.type->type, array.type->components, rows.size());
             for (std::size_t i = 0; i < rows.size() && values.wanted(); ++i)
                 for (std::size_t c = 0; c < array.type->components; ++c) values.add(number(array, rows[i], c));

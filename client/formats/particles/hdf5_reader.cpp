@@ -1,5 +1,6 @@
-// HDF5: a step of H5Part (datasets x, y, z of one group, "Step#0") and what PySPH writes (a group of datasets for each
-// kind of particles, below "particles"). A file is untrusted only as far as HDF5's library is: see client/README.md.
+// HDF5: datasets in the root, the gas of Gadget and SWIFT ("PartType0"), a step of H5Part ("Step#0"), and what PySPH
+// writes (a group of datasets for each kind of particles, below "particles"). Nothing is read that lies in another
+// file. Otherwise a file is untrusted only as far as HDF5's library is: see client/README.md.
 #include "formats/bytes/byte_cursor.hpp"
 #include "formats/particles/particle_readers.hpp"
 
@@ -82,9 +83,53 @@ bool has(hid_t group, const char* name) {
     return H5Lexists(group, name, H5P_DEFAULT) > 0;
 }
 
-bool has_axes(hid_t group) {
-    return has(group, "x") && has(group, "y") && has(group, "z");
+constexpr std::array hdf5_axes{"x", "y", "z"};
+
+/// How a group has its particles' positions.
+struct Hdf5Positions {
+    std::string rows;  ///< the dataset of three coordinates each; empty: x, y and z are datasets of their own
+
+    bool has(std::string_view name) const {
+        return rows.empty() ? std::find(hdf5_axes.begin(), hdf5_axes.end(), name) != hdf5_axes.end() : name == rows;
+    }
+};
+
+std::optional<Hdf5Positions> positions_in(hid_t group) {
+    for (const char* rows : {"positions", "Coordinates"})
+        if (has(group, rows)) return Hdf5Positions{rows};
+    if (std::all_of(hdf5_axes.begin(), hdf5_axes.end(), [&](const char* axis) { return has(group, axis); }))
+        return Hdf5Positions{};
+    return std::nullopt;
 }
+
+/// Gadget's names of what others call otherwise.
+std::string usual_hdf5_name(const std::string& name) {
+    if (name == "Velocities") return "velocity";
+    if (name == "ParticleIDs") return "id";
+    return name;
+}
+
+/// A way to open objects that keeps to the file: it ends where a link leads to another one.
+class Access {
+public:
+    /// kind: of property lists, H5P_GROUP_ACCESS or H5P_DATASET_ACCESS.
+    explicit Access(hid_t kind) : list_(H5Pcreate(kind), H5Pclose) { H5Pset_elink_cb(list_, stop, &elsewhere_); }
+    Access(const Access&) = delete;
+    Access& operator=(const Access&) = delete;
+
+    hid_t list() const { return list_; }
+    /// The file that a link named since the last call; empty: none did.
+    std::string elsewhere() { return std::exchange(elsewhere_, {}); }
+
+private:
+    static herr_t stop(const char*, const char*, const char* file, const char*, unsigned*, hid_t, void* elsewhere) {
+        *static_cast<std::string*>(elsewhere) = file;
+        return -1;
+    }
+
+    std::string elsewhere_;
+    Handle list_;
+};
 
 struct Dataset {
     std::optional<ScalarType> type;  ///< none: no numbers, or none that are read
@@ -119,33 +164,43 @@ public:
         : at_(name, bytes), budget_(limits, 3 * bytes.size(), at_), file_(open_image(at_, bytes)) {}
 
     Particles read() {
-        const Handle group = group_of_particles();
+        const Handle group = open_group(place_of_particles());
+        const Hdf5Positions positions = *positions_in(group);
         Particles particles;
-        read_positions(group, particles);
-        ArrayCollector collector;
-        for (const std::string& name : names_in(group)) {
-            if (name == "x" || name == "y" || name == "z") continue;
-            read_array(group, name, particles, collector);
-        }
+        positions.rows.empty() ? read_axes(group, particles) : read_rows(group, positions.rows, particles);
+        ArrayCollector collector(at_);
+        for (const std::string& name : names_in(group))
+            if (!positions.has(name)) read_array(group, name, positions, particles, collector);
         collector.finish(particles.arrays, particles.left_out);
         return particles;
     }
 
 private:
-    /// Where x, y and z are: the one place of the file that has them.
-    Handle group_of_particles() {
+    [[noreturn]] void refuse_other_file(const std::string& what, const std::string& file) const {
+        at_.fail(what + " in another file, " + quoted(file) +
+                 "; only what a file holds itself is read: h5repack or h5copy brings it into one");
+    }
+
+    Handle open_group(const std::string& path) {
+        Handle group(H5Gopen2(file_, path.c_str(), groups_.list()), H5Gclose);
+        if (const std::string file = groups_.elsewhere(); !file.empty())
+            refuse_other_file("group " + quoted(path) + " lies", file);
+        return group;
+    }
+
+    /// The group of the particles: the one place of the file that has positions.
+    std::string place_of_particles() {
+        const std::vector<std::string> root = names_in(file_);
         std::vector<std::string> places;
-        if (has_axes(file_)) places.emplace_back("/");
-        for (const std::string& name : names_in(file_))
-            if (name.starts_with("Step#")) add_place(name, places);
+        if (positions_in(file_)) places.emplace_back("/");
+        for (const std::string& name : root)
+            if (name == "PartType0" || name.starts_with("Step#")) add_place(name, places);
         if (has(file_, "particles")) {
-            const Handle kinds(H5Gopen2(file_, "particles", H5P_DEFAULT), H5Gclose);
+            const Handle kinds = open_group("particles");
             for (const std::string& kind : kinds.there() ? names_in(kinds) : std::vector<std::string>{})
                 add_place("particles/" + kind + "/arrays", places);
         }
-        if (places.empty())
-            at_.fail(
-                "no particles: neither x, y and z in a group Step#0 (H5Part), nor in particles/NAME/arrays (PySPH)");
+        if (places.empty()) refuse_without_positions(root);
         if (places.size() > 1) {
             const std::string first = places.front();
             // PySPH's solids are others than its fluid.
@@ -155,19 +210,59 @@ private:
                          places.back() +
                          " among them; one frame is read: copy it to a file of its own (h5copy -i IN -o OUT -s " +
                          first + " -d " + first + ")");
-            places = {*fluid};
+            return *fluid;
         }
-        return Handle(H5Gopen2(file_, places.front().c_str(), H5P_DEFAULT), H5Gclose);
+        return places.front();
     }
-    void add_place(const std::string& path, std::vector<std::string>& places) const {
-        const Handle group(H5Gopen2(file_, path.c_str(), H5P_DEFAULT), H5Gclose);
-        if (group.there() && has_axes(group)) places.push_back(path);
+    void add_place(const std::string& path, std::vector<std::string>& places) {
+        const Handle group = open_group(path);
+        if (group.there() && positions_in(group)) places.push_back(path);
+    }
+    [[noreturn]] void refuse_without_positions(const std::vector<std::string>& root) const {
+        constexpr std::size_t most_listed = 8;
+        std::string there;
+        for (std::size_t i = 0; i < std::min(root.size(), most_listed); ++i)
+            there += (i == 0 ? "; its root has " : ", ") + quoted(root[i]);
+        if (root.size() > most_listed) there += " and " + std::to_string(root.size() - most_listed) + " more";
+        at_.fail(
+            "no particles: neither positions (N, 3), nor Coordinates (N, 3), nor x, y and z, in the root, PartType0 "
+            "(Gadget, SWIFT), Step#0 (H5Part) or particles/NAME/arrays (PySPH)" +
+            there);
+    }
+
+    /// Before a value is read, or another file looked for.
+    void refuse_values_of_other_files(hid_t set, const std::string& name) {
+        const Handle made(H5Dget_create_plist(set), H5Pclose);
+        std::array<char, 256> file{};
+        if (H5Pget_external_count(made) > 0) {
+            H5Pget_external(made, 0, file.size() - 1, file.data(), nullptr, nullptr);
+            refuse_other_file("dataset " + quoted(name) + " has its values", file.data());
+        }
+        if (H5Pget_layout(made) == H5D_VIRTUAL) {
+            H5Pget_virtual_filename(made, 0, file.data(), file.size() - 1);
+            refuse_other_file("dataset " + quoted(name) + " is virtual, with values", file.data());
+        }
+    }
+
+    /// The library takes the memory of a whole chunk, however little of it is there.
+    void pay_chunk(hid_t set, const std::string& name) {
+        const Handle made(H5Dget_create_plist(set), H5Pclose);
+        if (H5Pget_layout(made) != H5D_CHUNKED) return;
+        std::array<hsize_t, H5S_MAX_RANK> chunk{};
+        const int dimensions = H5Pget_chunk(made, static_cast<int>(chunk.size()), chunk.data());
+        const Handle type(H5Dget_type(set), H5Tclose);
+        std::uint64_t bytes = H5Tget_size(type);
+        for (int i = 0; i < dimensions; ++i) bytes *= chunk[static_cast<std::size_t>(i)];  // the library: below 2^32
+        budget_.take(bytes, at_, "a chunk of dataset " + quoted(name));
     }
 
     /// shape: what it turned out to be.
-    Handle open(hid_t group, const std::string& name, Dataset& shape) const {
-        Handle set(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose);
+    Handle open(hid_t group, const std::string& name, Dataset& shape) {
+        Handle set(H5Dopen2(group, name.c_str(), sets_.list()), H5Dclose);
+        if (const std::string file = sets_.elsewhere(); !file.empty())
+            refuse_other_file("dataset " + quoted(name) + " lies", file);
         if (!set.there()) return set;
+        refuse_values_of_other_files(set, name);
         const Handle type(H5Dget_type(set), H5Tclose);
         const Handle space(H5Dget_space(set), H5Sclose);
         std::array<hsize_t, 2> extent{0, 1};
@@ -187,25 +282,35 @@ private:
             at_.fail("dataset " + quoted(name) + " has " + std::to_string(shape.rows) + " x " +
                      std::to_string(shape.columns) + " numbers, more than the file may take in memory");
         const std::size_t count = shape.rows * shape.columns;
+        pay_chunk(set, name);
         budget_.take(sizeof(double) * count, at_, "dataset " + quoted(name));
         std::vector<double> values(count);
         if (H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
             at_.fail("dataset " + quoted(name) + " is damaged, or compressed by what this build of HDF5 does not know");
-        budget_.give_back(sizeof(double) * count);
         return values;
     }
 
-    void read_positions(hid_t group, Particles& particles) {
-        static constexpr std::array<const char*, 3> axes{"x", "y", "z"};
-        for (std::size_t axis = 0; axis < axes.size(); ++axis) {
-            const std::string name = axes[axis];
+    void read_rows(hid_t group, const std::string& name, Particles& particles) {
+        Dataset shape;
+        const Handle set = open(group, name, shape);
+        if (!set.there() || !shape.type || shape.columns != 3)
+            at_.fail("dataset " + quoted(name) + " is no list of three coordinates each, of shape (N, 3)");
+        const std::vector<double> values = numbers(set, shape, name);
+        budget_.take(2 * sizeof(float) * values.size(), at_, "the positions");
+        particles.positions.reserve(values.size());
+        for (const double value : values) set_coordinate(particles, particles.positions.size(), value, at_);
+    }
+
+    void read_axes(hid_t group, Particles& particles) {
+        for (std::size_t axis = 0; axis < hdf5_axes.size(); ++axis) {
+            const std::string name = hdf5_axes[axis];
             Dataset shape;
             const Handle set = open(group, name, shape);
             if (!set.there() || !shape.type || shape.columns != 1)
                 at_.fail("dataset " + quoted(name) + " is no list of numbers");
             const std::vector<double> values = numbers(set, shape, name);
             if (axis == 0) {
-                budget_.take(3 * sizeof(float) * values.size(), at_, "the positions");
+                budget_.take(6 * sizeof(float) * values.size(), at_, "the positions");
                 particles.positions.resize(3 * values.size());
             }
             if (values.size() != particles.count())
@@ -215,24 +320,26 @@ private:
         }
     }
 
-    void read_array(hid_t group, const std::string& name, Particles& particles, ArrayCollector& collector) {
+    void read_array(hid_t group, const std::string& name, const Hdf5Positions& positions, const Particles& particles,
+                    ArrayCollector& collector) {
         Dataset shape;
         const Handle set = open(group, name, shape);
         if (!set.there()) return collector.leave_out(name, "no dataset");
         if (!shape.type) return collector.leave_out(name, "no numbers");
         const std::size_t count = particles.count();
         // PySPH keeps rows of several numbers as one list.
-        if (shape.columns == 1 && count != 0 && shape.rows % count == 0) {
+        if (positions.rows.empty() && shape.columns == 1 && count != 0 && shape.rows % count == 0) {
             shape.columns = shape.rows / count;
             shape.rows = count;
         }
         if (shape.rows != count)
             return collector.leave_out(
                 name, std::to_string(shape.rows) + " rows for " + std::to_string(count) + " particles");
-        ArrayBuilder array(name, *shape.type, shape.columns, 0);
+        const std::string known = usual_hdf5_name(name);
+        ArrayBuilder array(known, *shape.type, shape.columns, 0);
         if (array.wanted()) {
             budget_.take(sizeof(float) * count * shape.columns, at_, "dataset " + quoted(name));
-            array = ArrayBuilder(name, *shape.type, shape.columns, count);
+            array = ArrayBuilder(known, *shape.type, shape.columns, count);
             for (const double value : numbers(set, shape, name)) array.add(value);
         }
         collector.add(std::move(array));
@@ -242,6 +349,8 @@ private:
     ReadBudget budget_;
     Quiet quiet_;
     Handle file_;
+    Access groups_{H5P_GROUP_ACCESS};
+    Access sets_{H5P_DATASET_ACCESS};
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/read_budget.hpp"
 #include "formats/particles/particle_readers.hpp"
 
 namespace meniscus::formats {
@@ -10,7 +11,8 @@ namespace {
 
 class Positions : public nlohmann::json_sax<nlohmann::json> {
 public:
-    Positions(const ByteCursor& at, Particles& particles) : at_(at), particles_(particles) {}
+    Positions(const ByteCursor& at, const ReadLimits& limits, std::uint64_t file_bytes, Particles& particles)
+        : at_(at), budget_(limits, file_bytes, at), particles_(particles) {}
 
     bool start_array(std::size_t) override {
         if (depth_ == 2) refuse("a list within a position");
@@ -40,6 +42,7 @@ public:
 private:
     bool coordinate(double value) {
         if (depth_ != 2 || found_ == 3) refuse("a number that is none of three of a position");
+        budget_.take(2 * sizeof(float), at_, "the positions");  // the remainder with it
         set_coordinate(particles_, particles_.positions.size(), value, at_);
         ++found_;
         return true;
@@ -50,6 +53,7 @@ private:
     }
 
     const ByteCursor& at_;
+    ReadBudget budget_;
     Particles& particles_;
     int depth_ = 0;
     std::size_t found_ = 0;  ///< numbers of the position that has begun
@@ -57,10 +61,10 @@ private:
 
 }  // namespace
 
-Particles read_particle_json(const std::string& name, std::string_view bytes, const ReadLimits& /*limits*/) {
+Particles read_particle_json(const std::string& name, std::string_view bytes, const ReadLimits& limits) {
     const ByteCursor at(name, bytes);
     Particles particles;
-    Positions positions(at, particles);
+    Positions positions(at, limits, bytes.size(), particles);
     nlohmann::json::sax_parse(bytes.begin(), bytes.end(), &positions);
     return particles;
 }

@@ -23,6 +23,12 @@ void fill_positions(Particles& particles, const NpyArray& array, const ByteCurso
             set_coordinate(particles, particles.positions.size(), array.at(i, axis), at);
 }
 
+/// Before they are read: as float32, with the remainders of what that does not hold.
+void pay_coordinates(const NpyArray& array, ReadBudget& budget, const ByteCursor& at) {
+    const std::size_t each = array.type == ScalarType::float32 ? sizeof(float) : 2 * sizeof(float);
+    budget.take(each * (array.data.size() / size_of(array.type)), at, "what it holds");
+}
+
 /// One coordinate of each particle.
 void fill_axis(Particles& particles, std::size_t axis, const NpyArray& array, const ByteCursor& at) {
     if (!array.unread.empty()) at.fail("holds " + array.unread + "; coordinates are numbers");
@@ -49,18 +55,17 @@ void divide_into_rows(NpyArray& array, std::size_t count) {
 /// The arrays of PySPH's particles, which are pickled together.
 void read_pysph(NpzReader& file, Particles& particles) {
     file.with("particles", [&](const NpyArray& pickled, const ByteCursor& place) {
-        std::vector<NamedNpyArray> arrays = pysph_arrays(place, pickled.data);
+        std::vector<NamedNpyArray> arrays = pysph_arrays(place, pickled.data, file.budget());
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::string_view name = std::string_view("xyz").substr(axis, 1);
             const auto found =
                 std::find_if(arrays.begin(), arrays.end(), [&](const auto& a) { return a.name == name; });
             if (found == arrays.end()) place.fail("has no array " + quoted(name));
             if (!found->array.unread.empty()) place.fail("array " + quoted(name) + ": " + found->array.unread);
-            file.budget().take(sizeof(float) * (found->array.data.size() / size_of(found->array.type)), place,
-                               "what it holds");
+            pay_coordinates(found->array, file.budget(), place);
             fill_axis(particles, axis, found->array, place);
         }
-        ArrayCollector collector;
+        ArrayCollector collector(place);
         for (auto& [name, array] : arrays) {
             if (name == "x" || name == "y" || name == "z") continue;
             divide_into_rows(array, particles.count());
@@ -91,10 +96,13 @@ bool has_pickled_particles(NpzReader& file) {
 
 }  // namespace
 
-Particles read_npy(const std::string& name, std::string_view bytes, const ReadLimits& /*limits*/) {
+Particles read_npy(const std::string& name, std::string_view bytes, const ReadLimits& limits) {
     const ByteCursor at(name, bytes);
+    ReadBudget budget(limits, bytes.size(), at);
+    const NpyArray array = read_npy_array(at, bytes);
+    pay_coordinates(array, budget, at);
     Particles particles;
-    fill_positions(particles, read_npy_array(at, bytes), at);
+    fill_positions(particles, array, at);
     return particles;
 }
 
@@ -102,18 +110,15 @@ Particles read_npz(const std::string& name, std::string_view bytes, const ReadLi
     static constexpr std::array axes{"x", "y", "z"};
     NpzReader file(name, bytes, limits);
     Particles particles;
-    const auto pay = [&](std::size_t numbers, const ByteCursor& place) {
-        file.budget().take(sizeof(float) * numbers, place, "what it holds");
-    };
     if (file.has("positions")) {
         file.with("positions", [&](const NpyArray& array, const ByteCursor& place) {
-            pay(array.data.size() / size_of(array.type), place);
+            pay_coordinates(array, file.budget(), place);
             fill_positions(particles, array, place);
         });
     } else if (file.has("x") && file.has("y") && file.has("z")) {
         for (std::size_t axis = 0; axis < axes.size(); ++axis)
             file.with(axes[axis], [&](const NpyArray& array, const ByteCursor& place) {
-                pay(array.data.size() / size_of(array.type), place);
+                pay_coordinates(array, file.budget(), place);
                 fill_axis(particles, axis, array, place);
             });
     } else if (has_pickled_particles(file)) {
@@ -130,7 +135,7 @@ Particles read_npz(const std::string& name, std::string_view bytes, const ReadLi
         file.with("triangles", [&](const NpyArray& array, const ByteCursor&) {
             if (array.shape.size() == 2) particles.faces = array.shape[0];
         });
-    ArrayCollector collector;
+    ArrayCollector collector(file.at());
     file.collect(collector, particles.count(), {"positions", "x", "y", "z", "level", "levels", "triangles"});
     collector.finish(particles.arrays, particles.left_out);
     return particles;

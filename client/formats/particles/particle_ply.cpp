@@ -10,10 +10,10 @@
 
 namespace meniscus::formats {
 
-Particles read_particle_ply(const std::string& name, std::string_view bytes, const ReadLimits& /*limits*/) {
-    PlyReader ply(name, bytes);
+Particles read_particle_ply(const std::string& name, std::string_view bytes, const ReadLimits& limits) {
+    PlyReader ply(name, bytes, limits);
     Particles particles;
-    ArrayCollector collector;
+    ArrayCollector collector(ply.in());
     bool found = false;
     for (const PlyElement& element : ply.elements()) {
         if (element.name == "face" || element.name == "tristrips") particles.faces += element.count;
@@ -28,6 +28,8 @@ Particles read_particle_ply(const std::string& name, std::string_view bytes, con
         auto level = element.scalar("level");
         if (level && !is_integer(element.properties[*level].type)) level.reset();
         ply.expect_rows(element);
+        // Coordinates with their remainders, and four bytes for any other number.
+        ply.budget().take((3 + element.properties.size()) * sizeof(float) * element.count, ply.in(), "its vertices");
         std::vector<std::pair<std::size_t, ArrayBuilder>> arrays;  // by property
         for (std::size_t p = 0; p < element.properties.size(); ++p) {
             const PlyProperty& property = element.properties[p];

@@ -20,8 +20,8 @@ Particles to_particles(VtkDataset dataset, const ByteCursor& at) {
 
 }  // namespace
 
-Particles read_vtk(const std::string& name, std::string_view bytes, const ReadLimits& /*limits*/) {
-    return to_particles(read_legacy_vtk(name, bytes, VtkUse::particles), ByteCursor(name, bytes));
+Particles read_vtk(const std::string& name, std::string_view bytes, const ReadLimits& limits) {
+    return to_particles(read_legacy_vtk(name, bytes, limits, VtkUse::particles), ByteCursor(name, bytes));
 }
 
 Particles read_vtk_xml(const std::string& name, std::string_view bytes, const ReadLimits& limits) {

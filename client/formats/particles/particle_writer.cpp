@@ -10,7 +10,7 @@
 #include "formats/containers/named_values.hpp"
 #include "formats/containers/npz_writer.hpp"
 #include "formats/containers/ply_properties.hpp"
-#include "formats/vtk/vtp_writer.hpp"
+#include "formats/vtk/vtk_xml_writer.hpp"
 
 namespace meniscus::formats {
 
@@ -35,7 +35,7 @@ void write_particle_ply(const std::filesystem::path& path, const ParticleFrame& 
 
 void write_particle_vtp(const std::filesystem::path& path, const ParticleFrame& frame) {
     const std::size_t count = frame.count();
-    VtpWriter out(path, count, {.verts = count}, VtpCompression::none);
+    VtkXmlWriter out(path, VtkXmlKind::poly_data, {.points = count, .verts = count}, VtkXmlCompression::none);
     out.begin("PointData");
     for (const ParticleArray& array : with_levels(frame, "level")) out.add(array);
     out.end("PointData");

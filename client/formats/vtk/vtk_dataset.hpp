@@ -20,6 +20,8 @@ namespace meniscus::formats {
 enum class VtkUse { particles, mesh };
 
 struct VtkDataset {
+    explicit VtkDataset(const ByteCursor& at) : arrays(at) {}
+
     std::vector<std::array<double, 3>> points;
     bool wide = false;                        ///< the points are float64
     std::size_t faces = 0;                    ///< polygons and strips of triangles
@@ -67,7 +69,7 @@ inline std::uint8_t to_cell_level(double value) {
 }
 
 /// The readers. name: the file, for messages. Throw InvalidInput in one line.
-VtkDataset read_legacy_vtk(const std::string& name, std::string_view bytes, VtkUse use);
+VtkDataset read_legacy_vtk(const std::string& name, std::string_view bytes, const ReadLimits& limits, VtkUse use);
 VtkDataset read_xml_vtk(const std::string& name, std::string_view bytes, const ReadLimits& limits, VtkUse use);
 
 }  // namespace meniscus::formats

@@ -9,12 +9,18 @@
 #include <utility>
 
 #include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/read_budget.hpp"
 #include "formats/bytes/scalar.hpp"
 #include "formats/containers/face_index.hpp"
 #include "formats/vtk/vtk_dataset.hpp"
 
 namespace meniscus::formats {
 namespace {
+
+/// Memory of a point, as float64 and as the float32 and remainders of particles.
+constexpr std::size_t point_bytes = sizeof(std::array<double, 3>) + 6 * sizeof(float);
+/// Of the end of a cell's corners, and of a triangle with its cell.
+constexpr std::size_t cell_bytes = sizeof(std::size_t), triangle_bytes = sizeof(Triangle) + sizeof(std::size_t);
 
 std::string upper(std::string_view text) {
     std::string out(text);
@@ -57,7 +63,8 @@ std::optional<ScalarType> type_by_name(std::string_view name) {
 
 class VtkReader {
 public:
-    VtkReader(const std::string& name, std::string_view bytes, VtkUse use) : in_(name, bytes), use_(use) {}
+    VtkReader(const std::string& name, std::string_view bytes, const ReadLimits& limits, VtkUse use)
+        : in_(name, bytes), budget_(limits, bytes.size(), in_), use_(use), out_(in_) {}
 
     VtkDataset read() {
         header();
@@ -133,6 +140,7 @@ private:
         begin_data(product(count, 3), type, "coordinates");
         expect_addressable(count, in_);
         out_.wide = type == ScalarType::float64;
+        budget_.take(point_bytes * count, in_, "the points");
         out_.points.resize(count);
         for (auto& point : out_.points)
             for (double& x : point) x = value(type);
@@ -153,6 +161,7 @@ private:
         if (use_ == VtkUse::particles) {
             walk_over(first, end_type);
         } else {
+            budget_.take(cell_bytes * first, in_, "the cells");
             for (std::size_t i = 0; i < first; ++i) {
                 const std::size_t end = to_end(value(end_type), second);
                 if (i == 0 && end != 0) in_.fail("the first cell begins at " + std::to_string(end) + ", not at 0");
@@ -165,6 +174,7 @@ private:
             skip(second, corner_type);
         } else {
             begin_data(second, corner_type, "corners of cells");
+            budget_.take(sizeof(std::uint32_t) * second, in_, "the corners of cells");
             for (std::size_t i = 0; i < second; ++i)
                 corners_.push_back(to_index(value(corner_type), out_.points.size(), in_));
         }
@@ -176,6 +186,7 @@ private:
         constexpr ScalarType type = ScalarType::int32;
         if (use_ == VtkUse::particles) return skip(numbers, type);
         begin_data(numbers, type, "numbers of cells");
+        budget_.take(sizeof(std::uint32_t) * numbers, in_, "the corners of cells");
         std::size_t left = numbers;
         for (std::size_t i = 0; i < count; ++i) {
             if (left == 0) in_.fail("its list of cells ends before cell " + std::to_string(i));
@@ -188,6 +199,7 @@ private:
                 corners_.push_back(to_index(value(type), out_.points.size(), in_));
                 --left;
             }
+            budget_.take(cell_bytes, in_, "the cells");
             cell_ends_.push_back(corners_.size());
         }
         if (left > 0) in_.fail(std::to_string(left) + " numbers follow the last cell");
@@ -210,6 +222,7 @@ private:
             face.assign(corners_.begin() + static_cast<std::ptrdiff_t>(begin),
                         corners_.begin() + static_cast<std::ptrdiff_t>(cell_ends_[i]));
             begin = cell_ends_[i];
+            if (type && face.size() > 2) budget_.take(triangle_bytes * (face.size() - 2), in_, "the triangles");
             if (type) append_face(out_, *type, face, cells_ + i);
         }
         cell_ends_.clear();
@@ -299,6 +312,8 @@ private:
                      std::to_string(out_.points.size()) + " points");
         begin_data(values, type, "values");
         if (point_data_ && components > 0) {
+            if (can_be_attribute(ElementType::float32, components))
+                budget_.take(sizeof(float) * values, in_, "point data " + quoted(name));
             VtkPointArray array(out_, use_, name, type, components, in_);
             if (array.wanted())
                 for (std::size_t i = 0; i < values; ++i)
@@ -308,6 +323,7 @@ private:
             return array.finish();
         }
         if (point_data_ || !is_cell_levels(use_, name, type, components)) return walk_over(values, type);
+        budget_.take(values, in_, "the cells' levels");
         out_.cell_levels.resize(values);
         for (std::uint8_t& level : out_.cell_levels) level = to_cell_level(value(type));
     }
@@ -363,6 +379,7 @@ private:
     static bool blank(std::string_view line) { return line.find_first_not_of(" \t\r") == std::string_view::npos; }
 
     ByteCursor in_;
+    ReadBudget budget_;
     VtkUse use_;
     VtkDataset out_;
     std::vector<std::uint32_t> corners_;  ///< of a mesh's cells whose types are not known yet
@@ -377,8 +394,8 @@ private:
 
 }  // namespace
 
-VtkDataset read_legacy_vtk(const std::string& name, std::string_view bytes, VtkUse use) {
-    return VtkReader(name, bytes, use).read();
+VtkDataset read_legacy_vtk(const std::string& name, std::string_view bytes, const ReadLimits& limits, VtkUse use) {
+    return VtkReader(name, bytes, limits, use).read();
 }
 
 }  // namespace meniscus::formats

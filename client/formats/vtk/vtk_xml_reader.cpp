@@ -9,6 +9,7 @@
 #include <optional>
 #include <pugixml.hpp>
 #include <type_traits>
+#include <unordered_map>
 #include <utility>
 
 #include "formats/bytes/base64.hpp"
@@ -23,6 +24,9 @@ namespace {
 
 /// The most '<' and '=' before the appended data: pugixml needs some 64 bytes for each.
 constexpr std::size_t most_marks = 1'000'000;
+/// What a compressed block takes of the budget beside its bytes: a decompression has to be begun for each, even for one
+/// without bytes. VTK's blocks have 32 KiB and more.
+constexpr std::uint64_t block_cost = 64;
 
 std::optional<ScalarType> xml_type_by_name(std::string_view name) {
     using enum ScalarType;
@@ -52,7 +56,7 @@ struct Appended {
 class XmlReader {
 public:
     XmlReader(const std::string& name, std::string_view bytes, const ReadLimits& limits, VtkUse use)
-        : at_(name, bytes), bytes_(bytes), budget_(limits, bytes.size(), at_), use_(use) {}
+        : at_(name, bytes), bytes_(bytes), budget_(limits, bytes.size(), at_), use_(use), out_(at_) {}
 
     VtkDataset read() {
         parse();
@@ -192,7 +196,6 @@ private:
                                                              : unknown_format(what, format);
         make_room();
         for (std::size_t i = 0; i < values; ++i) take(load_scalar(type, data.data() + i * size_of(type), order_));
-        budget_.give_back(held.size());
     }
 
     [[noreturn]] std::string_view unknown_format(const std::string& what, std::string_view format) const {
@@ -222,6 +225,9 @@ private:
         return unpacked(decoded, reader.most(), what, bytes, held);
     }
 
+    template <class TakeBytes>
+    static constexpr bool is_copied = std::is_same_v<std::invoke_result_t<TakeBytes, std::size_t>, std::string>;
+
     /// take(size): the next bytes, as a string or a view. most: bytes that can follow. bytes: those of the array.
     /// Returns them; what is not in the file lies in `held`, and is paid for.
     template <class TakeBytes>
@@ -230,7 +236,7 @@ private:
         if (!compressor_.empty()) return decompressed(take, most, what, bytes, held);
         const std::uint64_t announced = header_numbers(take(size_of(header_type_)), 1)[0];
         expect_size(announced, bytes, what);
-        if constexpr (std::is_same_v<decltype(take(0)), std::string>) {
+        if constexpr (is_copied<TakeBytes>) {
             budget_.take(std::min<std::uint64_t>(bytes, most), at_, what);
             held = take(bytes);
             return held;
@@ -255,6 +261,7 @@ private:
             expect_size(0, bytes, what);
             return held;
         }
+        budget_.take(block_cost * blocks, at_, what + ", its compressed blocks");
         std::uint64_t all = 0;
         const std::uint64_t last = sizes[1] == 0 ? sizes[0] : sizes[1];
         if (__builtin_mul_overflow(blocks - 1, sizes[0], &all) || __builtin_add_overflow(all, last, &all))
@@ -270,6 +277,7 @@ private:
             if (compressed[i] > most)
                 at_.fail(what + ": a compressed block of " + std::to_string(compressed[i]) +
                          " bytes is announced, but only " + std::to_string(most) + " follow");
+            if constexpr (is_copied<TakeBytes>) budget_.take(compressed[i], at_, what);
             const std::uint64_t size = i + 1 < blocks ? sizes[0] : last;
             const std::string block = inflate(at_, take(compressed[i]), Deflate::zlib, size, what);
             if (block.size() != size)
@@ -310,8 +318,8 @@ private:
         read(
             array, what, form->type, 3 * p.points,
             [&] {
-                // The points are kept as float64, and as the float32 of particles.
-                budget_.take((sizeof(out_.points[0]) + 3 * sizeof(float)) * p.points, at_, what);
+                // The points are kept as float64, and as the float32 and remainders of particles.
+                budget_.take((sizeof(out_.points[0]) + 6 * sizeof(float)) * p.points, at_, what);
                 out_.points.resize(out_.points.size() + p.points);
             },
             [&](double x) {
@@ -371,7 +379,6 @@ private:
             const auto type = types.empty() ? std::optional(kind) : face_of(types[i]);
             if (type) append_face(out_, *type, corners, first_cell + i);
         }
-        budget_.give_back(sizeof(double) * (ends.size() + numbers.size()));
     }
 
     void cells(const Piece& p) {
@@ -381,7 +388,6 @@ private:
         out_.faces += static_cast<std::size_t>(
             std::count_if(types.begin(), types.end(), [](double type) { return face_of(type).has_value(); }));
         if (use_ == VtkUse::mesh) faces(p, parent, p.cells, p.first_cell, types, VtkCell::polygon);
-        budget_.give_back(sizeof(double) * types.size());
     }
 
     /// Cells are numbered: vertices, lines, polygons, strips.
@@ -395,13 +401,33 @@ private:
         if (strips > 0) faces(p, p.node.child("Strips"), strips, first + polys, {}, VtkCell::strip);
     }
 
+    /// The arrays of a piece's points by their names, of which the first counts.
+    struct PointData {
+        const Piece* piece;
+        std::unordered_map<std::string_view, pugi::xml_node> arrays;
+    };
+
+    static PointData point_data_of(const Piece& p) {
+        PointData out{&p, {}};
+        for (const pugi::xml_node array : p.node.child("PointData").children("DataArray"))
+            out.arrays.emplace(array.attribute("Name").value(), array);
+        return out;
+    }
+
     /// The arrays of the first piece that has points; the others must have them too.
     void point_data() {
-        const auto first = std::find_if(pieces_.begin(), pieces_.end(), [](const Piece& p) { return p.points > 0; });
-        if (first == pieces_.end()) return;
-        for (const pugi::xml_node array : first->node.child("PointData").children("DataArray")) {
+        std::vector<PointData> pieces;
+        for (const Piece& p : pieces_)
+            if (p.points > 0) pieces.push_back(point_data_of(p));
+        if (pieces.empty()) return;
+        const Piece& first = *pieces.front().piece;
+        for (const pugi::xml_node array : first.node.child("PointData").children("DataArray")) {
             const char* name = array.attribute("Name").value();
-            const std::string what = named(*first, array);
+            const std::string what = named(first, array);
+            if (pieces.front().arrays.at(name) != array) {
+                out_.arrays.leave_out(name, "the name of another array");
+                continue;
+            }
             const auto form = form_of(array, what);
             if (!form || form->components == 0) {
                 out_.arrays.leave_out(name, "type " + quoted(array.attribute("type").value()));
@@ -412,14 +438,15 @@ private:
                 budget_.take(std::uint64_t{out_.points.size()} * form->components * 4, at_, what);
             VtkPointArray values(out_, use_, name, form->type, form->components, at_);
             if (values.wanted())
-                for (const Piece& p : pieces_) piece_values(p, name, *form, values);
+                for (const PointData& piece : pieces) piece_values(piece, name, *form, values);
             values.finish();
         }
     }
 
-    void piece_values(const Piece& p, const char* name, const ArrayForm& form, VtkPointArray& values) {
-        if (p.points == 0) return;
-        const pugi::xml_node array = array_named(p.node.child("PointData"), name);
+    void piece_values(const PointData& piece, const char* name, const ArrayForm& form, VtkPointArray& values) {
+        const Piece& p = *piece.piece;
+        const auto found = piece.arrays.find(name);
+        const pugi::xml_node array = found == piece.arrays.end() ? pugi::xml_node() : found->second;
         const std::string what = named(p, array);
         const auto own = array ? form_of(array, what) : std::nullopt;
         if (!own || own->type != form.type || own->components != form.components)

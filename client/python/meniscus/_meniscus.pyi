@@ -18,7 +18,7 @@ Handler = Optional[Callable[[int, bool, str, float], None]]
 __version__: str
 
 def read_particles(
-    path: str, max_bytes: int
+    path: str, max_bytes: Optional[int]
 ) -> tuple[
     NDArray[np.float32], Optional[NDArray[np.uint8]], list[tuple[str, Array, str]], list[str], Optional[str]
 ]: ...
@@ -102,7 +102,7 @@ class ParticleFrame:
     def positions(self) -> NDArray[np.float32]: ...
     def levels(self) -> Optional[NDArray[np.uint8]]: ...
 
-def read_bricks(path: str, max_bytes: int) -> Frame: ...
+def read_bricks(path: str, max_bytes: Optional[int]) -> Frame: ...
 
 class RecordingFile:
     session_id: str

@@ -35,12 +35,12 @@ class Particles:
         return f"<Particles: {', '.join([f'{len(self):,}', *self.attributes])}>"
 
 
-def read_particles(path: Union[str, os.PathLike[str]], *, max_bytes: int = 8 << 30) -> Particles:
+def read_particles(path: Union[str, os.PathLike[str]], *, max_bytes: Optional[int] = None) -> Particles:
     """Reads a frame: .vtk, .vtu, .vtp, .ply, .npy, .npz, .bgeo, .bgeo.gz, .h5, .hdf5, .h5part, .bi4, .json, .xyz.
 
-    ``max_bytes`` bounds what is read, before and after it is decompressed. Raises InvalidInput, in one line with the
-    file, the place and what was expected; LimitExceeded for a larger file. A mesh, whose corners become particles, is
-    a SurfaceWarning.
+    ``max_bytes`` bounds what the file takes with all that it makes grow: by default half of the machine's memory, 8 GiB
+    at most. Nothing is read but the file itself. Raises InvalidInput, in one line with the file, the place and what was
+    expected; LimitExceeded for a larger file. A mesh, whose corners become particles, is a SurfaceWarning.
     """
     try:
         positions, levels, arrays, left_out, warning = _meniscus.read_particles(os.fspath(path), max_bytes)

@@ -147,7 +147,7 @@ class Mesh:
         return self._raw.sha256()
 
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes the mesh as its extension says: .ply, .obj, .vtk, .vtp, .npz, .glb, .usda or .bricks.
+        """Writes the mesh as its extension says: .ply, .obj, .vtk, .vtp, .vtu, .npz, .glb, .usda, .stl or .bricks.
 
         The file is the one that the command line writes, to the byte (.bricks: but for the times of its figures). It
         appears whole or not at all. Raises InvalidInput for another extension, or where nothing can be written.

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Iterator, Union
+from typing import Any, Iterator, Optional, Union
 
 from . import _meniscus
 from .errors import InvalidInput
 from .frame import Frame
 
 
-def read_bricks(path: Union[str, os.PathLike[str]], *, max_bytes: int = 8 << 30) -> Frame:
+def read_bricks(path: Union[str, os.PathLike[str]], *, max_bytes: Optional[int] = None) -> Frame:
     """Reads a .bricks file, as ``meniscus watch`` and Mesh.save() write it. Raises InvalidInput for anything else."""
     return Frame(_meniscus.read_bricks(os.fspath(path), max_bytes))
 

@@ -14,6 +14,10 @@ inline constexpr std::size_t max_shown_characters = 64;
 /// that are not UTF-8 \xNN, a backslash \\. "..." follows if the text has more than `most` characters; none is cut.
 std::string escaped(std::string_view text, std::size_t most = max_shown_characters);
 
+/// Lines of our own with text of others in them, names of files for example: what cannot be seen is shown as escaped()
+/// shows it, but for ends of lines. Backslashes stay.
+std::string visible(std::string_view lines);
+
 struct Quoted {
     std::string operator()(std::string_view text, char mark = '\'', std::size_t most = max_shown_characters) const;
 };

@@ -288,6 +288,11 @@ TEST(CInProcess, RefusesWrongParticlesAndGoesOn) {
     expect_refused(particles, "particles->struct_size is 0, must be sizeof(meniscus_particles)");
     particles.struct_size = offsetof(meniscus_particles, array_count) - 1;
     expect_refused(particles, "struct_size");
+    // An end within a member, or between two of them.
+    for (std::size_t size = offsetof(meniscus_particles, array_count) + 1; size < sizeof particles; ++size) {
+        particles.struct_size = size;
+        expect_refused(particles, "particles->struct_size is " + std::to_string(size));
+    }
     particles.struct_size = std::size_t{1} << 40;
     expect_refused(particles, "struct_size");
 }

@@ -252,5 +252,29 @@ TEST_F(CliFiles, ACommandEndsWithTheReaderOfWhatItSays) {
     ::close(pipe[1]);
 }
 
+TEST_F(CliFiles, NamesOfFilesAreShownWithoutWhatATerminalWouldObey) {
+    const std::string bad = "a\x1b[31m\u202eb\xff", shown = "a\\u{001b}[31m\\u{202e}b\\xff";
+    const auto expect_shown = [&](const std::string& text) {
+        SCOPED_TRACE(text);
+        EXPECT_NE(text.find(shown), std::string::npos);
+        EXPECT_EQ(text.find('\x1b'), std::string::npos);
+        EXPECT_EQ(text.find("\u202e"), std::string::npos);
+    };
+    const ProcessResult absent = run_meniscus({"convert", path(bad + ".npz"), "-o", path("out.ply")});
+    EXPECT_EQ(absent.exit_code, 2);
+    expect_shown(absent.err);
+    expect_shown(run_meniscus({"convert", path("a.ply"), "--wrong" + bad}).err);
+    // Success, a warning, and what is on standard output.
+    const std::string mesh = path(bad + ".ply");
+    const ProcessResult made = run_meniscus({"reconstruct", in_, "-o", mesh, "-r", "0.5"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    expect_shown(made.err);
+    expect_shown(run_meniscus({"convert", mesh, "-o", path("out.obj")}).err);
+    expect_shown(run_meniscus({"reconstruct", mesh, "-o", path("again.ply"), "-r", "0.5"}).err);
+    const ProcessResult checked = run_meniscus({"check", mesh});
+    EXPECT_EQ(checked.exit_code, 0);
+    expect_shown(checked.out);
+}
+
 }  // namespace
 }  // namespace meniscus::test

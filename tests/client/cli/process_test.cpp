@@ -194,7 +194,7 @@ TEST_F(Cli, RefusesOutputsThatCannotBeWritten) {
         expect_refused({"reconstruct", in_, "-o", out, "--particle-radius", "0.5"}, words);
     };
     refused(path("no/such/mesh.ply"), {"no/such", "cannot be written"});
-    refused(path("mesh.stl"), {"mesh.stl", ".ply"});
+    refused(path("mesh.off"), {"mesh.off", ".ply"});
     expect_refused(reconstruct({"--stats", path("no/such/s.json")}), {"no/such", "cannot be written"});
     std::filesystem::create_directory(directory_ / "folder.ply");
     refused(path("folder.ply"), {"folder.ply", "directory"});

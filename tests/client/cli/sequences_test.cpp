@@ -420,13 +420,14 @@ TEST_F(Boxes, CropTheMeshByWholeTriangles) {
 }
 
 TEST_F(Boxes, QuadsAreWrittenInTheFormatsThatHaveThem) {
-    for (const char* name : {"m.ply", "m.npz", "m.bricks", "m.glb", "m.usda"})
-        expect_refused({"reconstruct", in_, "-o", path(name), "-r", "0.5", "--quads"}, {"--quads", "obj, vtk or vtp"});
+    for (const char* name : {"m.ply", "m.npz", "m.bricks", "m.glb", "m.usda", "m.stl"})
+        expect_refused({"reconstruct", in_, "-o", path(name), "-r", "0.5", "--quads"},
+                       {"--quads", "obj, vtk, vtp or vtu"});
     ASSERT_EQ(run_meniscus(reconstruct({})).exit_code, 0);
     const formats::TriangleMesh plain = formats::read_mesh(out_);
-    std::array<std::vector<Triangle>, 3> cut;
+    std::array<std::vector<Triangle>, 4> cut;
     std::size_t i = 0;
-    for (const char* name : {"q.obj", "q.vtk", "q.vtp"}) {
+    for (const char* name : {"q.obj", "q.vtk", "q.vtp", "q.vtu"}) {
         ASSERT_EQ(run_meniscus({"reconstruct", in_, "-o", path(name), "-r", "0.5", "--quads", "--check"}).exit_code, 0);
         const formats::TriangleMesh mesh = formats::read_mesh(path(name));
         ASSERT_EQ(mesh.positions.size(), plain.positions.size()) << name;
@@ -445,6 +446,7 @@ TEST_F(Boxes, QuadsAreWrittenInTheFormatsThatHaveThem) {
     }
     EXPECT_EQ(cut[0], cut[1]);
     EXPECT_EQ(cut[0], cut[2]);
+    EXPECT_EQ(cut[0], cut[3]);
     const std::string text = formats::read_file(path("q.obj"));
     std::size_t quads = 0;
     for (std::size_t at = text.find("\nf "); at != std::string::npos; at = text.find("\nf ", at + 1)) {
@@ -454,11 +456,31 @@ TEST_F(Boxes, QuadsAreWrittenInTheFormatsThatHaveThem) {
     EXPECT_GT(quads, plain.triangles.size() / 8);
 }
 
+TEST_F(Boxes, LevelsOfTrianglesAreLeftOutOnDemand) {
+    for (const std::string format : {"ply", "vtk", "vtp", "vtu", "npz", "obj"}) {
+        const std::string with = path("with." + format), without = path("without." + format);
+        ASSERT_EQ(run_meniscus({"reconstruct", in_, "-o", with, "-r", "0.5"}).exit_code, 0);
+        ASSERT_EQ(run_meniscus({"reconstruct", in_, "-o", without, "-r", "0.5", "--no-triangle-levels"}).exit_code, 0);
+        const formats::TriangleMesh plain = formats::read_mesh(with), bare = formats::read_mesh(without);
+        EXPECT_EQ(plain.levels.size(), plain.triangles.size()) << format;
+        EXPECT_TRUE(bare.levels.empty()) << format;
+        EXPECT_EQ(bare.positions, plain.positions) << format;
+        EXPECT_EQ(bare.normals, plain.normals) << format;
+        EXPECT_EQ(bare.triangles, plain.triangles) << format;
+        // The same of a file that has them.
+        const std::string converted = path("converted." + format);
+        ASSERT_EQ(run_meniscus({"convert", with, "-o", converted, "--mesh", "--no-triangle-levels"}).exit_code, 0);
+        EXPECT_EQ(formats::read_file(converted), formats::read_file(without)) << format;
+    }
+    expect_refused({"reconstruct", in_, "-o", path("m.bricks"), "-r", "0.5", "--no-triangle-levels"},
+                   {"--no-triangle-levels", "bricks"});
+}
+
 TEST_F(Boxes, CompressedFilesAreSmallerAndHoldTheSame) {
-    for (const char* name : {"m.ply", "m.obj", "m.vtk", "m.npz", "m.bricks", "m.usda"})
+    for (const char* name : {"m.ply", "m.obj", "m.vtk", "m.npz", "m.bricks", "m.usda", "m.stl"})
         expect_refused({"reconstruct", in_, "-o", path(name), "-r", "0.5", "--compress"},
-                       {"--compress", "glb or vtp, not"});
-    for (const std::string format : {"glb", "vtp"}) {
+                       {"--compress", "glb, vtp or vtu, not"});
+    for (const std::string format : {"glb", "vtp", "vtu"}) {
         ASSERT_EQ(run_meniscus({"reconstruct", in_, "-o", path("plain." + format), "-r", "0.5"}).exit_code, 0);
         ASSERT_EQ(
             run_meniscus({"reconstruct", in_, "-o", path("small." + format), "-r", "0.5", "--compress"}).exit_code, 0);

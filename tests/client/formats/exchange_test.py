@@ -1,9 +1,11 @@
-"""formats_exchange_test.py PROGRAM HDF5: files that meshio, numpy and h5py write are read, and ours are read by them.
+"""formats_exchange_test.py PROGRAM HDF5: files of meshio, numpy and h5py are read, and ours by them, Open3D and VTK.
 
-PROGRAM: formats_exchange, which reads one file and writes another. HDF5: ON if it reads HDF5.
+PROGRAM: formats_exchange, which reads one file and writes another. HDF5: ON if it reads HDF5. VTK's readers are those
+of PyVista.
 """
 
 import base64
+import importlib.util
 import json
 import pathlib
 import subprocess
@@ -48,7 +50,7 @@ def vtp(path):
             assert int.from_bytes(data[:8], "little") == len(data) - 8
             data = data[8:]
         numbers = np.frombuffer(data, types[element.get("type")])
-        components = int(element.get("NumberOfComponents"))
+        components = int(element.get("NumberOfComponents", "1"))
         out[element.get("Name")] = numbers.reshape(-1, components) if components > 1 else numbers
     return out
 
@@ -248,8 +250,7 @@ class Exchange(unittest.TestCase):
     def test_our_meshes(self):
         triangles, levels = self.mesh_file()
         # meshio reads no levels of triangles in a binary PLY.
-        np.savez(self.path / "plain.npz", positions=positions, triangles=triangles, **arrays)
-        back = meshio.read(self.convert("mesh", "plain.npz", "m.ply"))
+        back = meshio.read(self.convert("no-levels", "m.npz", "m.ply"))
         np.testing.assert_array_equal(back.points, positions)
         np.testing.assert_array_equal(back.cells_dict["triangle"], triangles)
         np.testing.assert_array_equal(back.point_data["id"], arrays["id"])
@@ -261,6 +262,85 @@ class Exchange(unittest.TestCase):
                 np.testing.assert_array_equal(back["connectivity"].reshape(-1, 3), triangles)
                 np.testing.assert_array_equal(back["level"], levels)
                 np.testing.assert_array_equal(back["velocity"], arrays["velocity"])
+
+    def test_our_vtu_in_meshio(self):
+        triangles, levels = self.mesh_file()
+        for kind in ("mesh", "compressed"):
+            with self.subTest(kind):
+                back = meshio.read(self.convert(kind, "m.npz", "m.vtu"))
+                np.testing.assert_array_equal(back.points, positions)
+                np.testing.assert_array_equal(back.cells_dict["triangle"], triangles)
+                np.testing.assert_array_equal(back.cell_data["level"][0], levels)
+                for name, values in arrays.items():
+                    np.testing.assert_array_equal(back.point_data[name], values.astype(narrow[name]), err_msg=name)
+        self.convert("no-levels", "m.npz", "m.vtu")
+        self.assertNotIn("level", meshio.read(self.path / "m.vtu").cell_data)
+
+    def corners(self, triangles):
+        """The corners' places, in the order of the triangles, as float32."""
+        return positions.astype(np.float32)[triangles].reshape(-1, 3)
+
+    def test_our_stl_in_meshio(self):
+        triangles, _ = self.mesh_file()
+        back = meshio.read(self.convert("mesh", "m.npz", "m.stl"))
+        # It merges corners that are equal.
+        np.testing.assert_array_equal(back.points[back.cells_dict["triangle"]].reshape(-1, 3), self.corners(triangles))
+        data = (self.path / "m.stl").read_bytes()
+        self.assertEqual(len(data), 84 + 50 * len(triangles))
+        rows = np.frombuffer(data[84:], np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")]))
+        a, b, c = np.moveaxis(positions[triangles], 1, 0)
+        normals = np.cross(b - a, c - a)
+        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+        whole = lengths[:, 0] > 0
+        np.testing.assert_allclose(rows["normal"][whole], (normals / lengths)[whole], atol=1e-6)
+        self.assertFalse(rows["normal"][~whole].any())
+
+    @unittest.skipUnless(importlib.util.find_spec("open3d"), "without Open3D (python3-open3d)")
+    def test_our_meshes_in_open3d(self):
+        import open3d
+
+        triangles, _ = self.mesh_file()
+        for kind, name in (("mesh", "m.ply"), ("no-levels", "m.ply"), ("mesh", "m.stl"), ("mesh", "m.obj")):
+            with self.subTest(kind, name=name):
+                back = open3d.io.read_triangle_mesh(str(self.convert(kind, "m.npz", name)))
+                places = np.asarray(back.vertices)[np.asarray(back.triangles)].reshape(-1, 3)
+                # Open3D rounds the decimals of OBJ in a way of its own.
+                tolerance = 1e-6 if name == "m.obj" else 0.0
+                np.testing.assert_allclose(places.astype(np.float32), self.corners(triangles), rtol=tolerance)
+
+    @unittest.skipUnless(importlib.util.find_spec("vtkmodules"), "without VTK (python3-vtk9)")
+    def test_our_meshes_in_vtk(self):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
+        from vtkmodules.vtkIOLegacy import vtkPolyDataReader
+        from vtkmodules.vtkIOPLY import vtkPLYReader
+        from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
+
+        triangles, levels = self.mesh_file()
+        readers = {
+            "m.ply": vtkPLYReader,
+            "m.stl": vtkSTLReader,
+            "m.obj": vtkOBJReader,
+            "m.vtk": vtkPolyDataReader,
+            "m.vtp": vtkXMLPolyDataReader,
+            "m.vtu": vtkXMLUnstructuredGridReader,
+        }
+        for kind, name in (*(("mesh", name) for name in readers), ("no-levels", "m.ply"), ("compressed", "m.vtu")):
+            with self.subTest(kind, name=name):
+                reader = readers[name]()
+                reader.SetFileName(str(self.convert(kind, "m.npz", name)))
+                if name == "m.stl":
+                    reader.MergingOff()
+                reader.Update()
+                data = reader.GetOutput()
+                cells = data.GetCells() if name == "m.vtu" else data.GetPolys()
+                corners = vtk_to_numpy(cells.GetConnectivityArray())
+                places = vtk_to_numpy(data.GetPoints().GetData())[corners]
+                np.testing.assert_array_equal(places.astype(np.float32), self.corners(triangles))
+                if name in ("m.vtk", "m.vtp", "m.vtu"):
+                    np.testing.assert_array_equal(vtk_to_numpy(data.GetCellData().GetArray("level")), levels)
+                    velocity = vtk_to_numpy(data.GetPointData().GetArray("velocity"))
+                    np.testing.assert_array_equal(velocity, arrays["velocity"])
 
     def test_arrays_of_vtp_may_have_any_number_of_bytes(self):
         # Below, exactly and beyond base64's groups of three, the writer's piece and a compressed block.
@@ -277,7 +357,7 @@ class Exchange(unittest.TestCase):
     def test_meshes_go_through_every_format(self):
         triangles, levels = self.mesh_file()
         source = "m.npz"
-        for name in ("a.ply", "a.vtk", "a.vtp", "a.npz"):
+        for name in ("a.ply", "a.vtk", "a.vtp", "a.vtu", "a.npz"):
             self.convert("mesh", source, name)
             source = name
         with np.load(self.path / "a.npz") as back:

@@ -136,7 +136,7 @@ TEST(Npz, WhatItHoldsIsHeldAgainstTheLimit) {
     });
     EXPECT_EQ(formats::read_npz("f", bytes, {.most_bytes = bytes.size() + 24}).count(), 2U);
     const std::string message = refusal([&] { formats::read_npz("f", bytes, {.most_bytes = bytes.size() + 23}); });
-    EXPECT_NE(message.find("takes 24 bytes, 23 are left"), std::string::npos) << message;
+    EXPECT_NE(message.find("24 bytes for what it holds, but only 23 are left"), std::string::npos) << message;
 }
 
 }  // namespace

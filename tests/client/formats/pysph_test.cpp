@@ -14,8 +14,16 @@
 namespace meniscus::test {
 namespace {
 
+const formats::ByteCursor pickle_place("f", {});
+
+void read_pickle(const std::string& bytes, const formats::ReadLimits& limits = {}) {
+    formats::ReadBudget budget(limits, 0, pickle_place);
+    formats::Pickle(pickle_place, bytes, budget);
+}
+
 std::vector<formats::NamedNpyArray> arrays_of(const std::string& pickled) {
-    return formats::pysph_arrays(formats::ByteCursor("f", {}), pickled);
+    formats::ReadBudget budget({}, 0, pickle_place);
+    return formats::pysph_arrays(pickle_place, pickled, budget);
 }
 
 TEST(PySph, ArraysAreThoseOfTheFluidOrOfTheOnlyKind) {
@@ -56,18 +64,25 @@ TEST(PySph, PositionsAndArraysComeOutOfTheZippedPickle) {
 }
 
 TEST(Pickle, TakesNoMoreThanAMillionValues) {
-    EXPECT_NE(
-        refusal([] { formats::Pickle(formats::ByteCursor("f", {}), std::string(1'000'001, 'N')); }).find("more than"),
-        std::string::npos);
+    EXPECT_NE(refusal([] { read_pickle(std::string(1'000'001, 'N')); }).find("more than"), std::string::npos);
     // A list that doubles itself again and again.
     std::string bomb = "]q";
     bomb += '\0';
     for (int i = 0; i < 1'000'000; ++i) bomb += std::string("h\0a", 3);
-    EXPECT_EQ(refusal([&] { formats::Pickle(formats::ByteCursor("f", {}), bomb + "."); }), "");
-    EXPECT_NE(refusal([&] {
-                  formats::Pickle(formats::ByteCursor("f", {}),
-                                  bomb + bomb.substr(3) + bomb.substr(3) + bomb.substr(3) + bomb.substr(3) + ".");
-              }).find("items"),
+    EXPECT_EQ(refusal([&] { read_pickle(bomb + "."); }), "");
+    const std::string again = bomb.substr(3);
+    EXPECT_NE(refusal([&] { read_pickle(bomb + again + again + again + again + "."); }).find("items"),
+              std::string::npos);
+}
+
+TEST(Pickle, WhatItsValuesTakeIsHeldAgainstTheLimit) {
+    const std::string message = refusal([] { read_pickle(std::string(10'000, 'N') + ".", {.most_bytes = 100'000}); });
+    EXPECT_NE(message.find("bytes for its pickle, but only"), std::string::npos) << message;
+    EXPECT_EQ(refusal([] { read_pickle(std::string(1'000, 'N') + ".", {.most_bytes = 100'000}); }), "");
+    // A value that is kept under one number after the other.
+    EXPECT_NE(refusal([] {
+                  read_pickle("N" + std::string(10'000, '\x94') + ".", {.most_bytes = 100'000});
+              }).find("bytes for its pickle, but only"),
               std::string::npos);
 }
 

@@ -73,6 +73,28 @@ def test_hdf5_is_read_where_the_build_has_it(positions, tmp_path):
     assert np.array_equal(meniscus.read_particles(tmp_path / "p.h5").positions, positions)
 
 
+def test_hdf5_that_leads_to_other_files_is_refused(positions, tmp_path):
+    if ".h5" not in meniscus.particle_extensions():
+        pytest.skip("this build has no HDF5")
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "other.h5", "w") as other:
+        other["positions"] = positions.astype("<f4")
+    positions.astype("<f4").tofile(tmp_path / "raw")
+    for way in "storage", "link", "virtual":
+        with h5py.File(tmp_path / "p.h5", "w") as written:
+            if way == "storage":
+                storage = [(os.fsencode(tmp_path / "raw"), 0, positions.size * 4)]
+                written.create_dataset("positions", positions.shape, "<f4", external=storage)
+            elif way == "link":
+                written["positions"] = h5py.ExternalLink(tmp_path / "other.h5", "/positions")
+            else:
+                layout = h5py.VirtualLayout(positions.shape, "<f4")
+                layout[:] = h5py.VirtualSource(tmp_path / "other.h5", "positions", positions.shape)
+                written.create_virtual_dataset("positions", layout)
+        with pytest.raises(meniscus.InvalidInput, match="in another file"):
+            meniscus.read_particles(tmp_path / "p.h5")
+
+
 def test_what_has_no_place_is_told(positions, tmp_path):
     np.savez(tmp_path / "p.npz", positions=positions, tensor=np.zeros((len(positions), 9), np.float32))
     particles = meniscus.read_particles(tmp_path / "p.npz")

@@ -10,7 +10,7 @@ import pytest
 from support import command_line
 from support.particles import ball, particle_radius
 
-EXTENSIONS = (".ply", ".obj", ".vtk", ".vtp", ".npz", ".glb", ".usda", ".bricks")
+EXTENSIONS = (".ply", ".obj", ".vtk", ".vtp", ".vtu", ".npz", ".glb", ".usda", ".stl", ".bricks")
 
 
 def arrays_of(mesh):

@@ -103,6 +103,12 @@ TEST(TextOfStrangers, IsAsLongAsAskedFor) {
     EXPECT_EQ(quoted("", '\'', 0), "''");
 }
 
+TEST(Visible, LinesStayButForWhatCannotBeSeen) {
+    EXPECT_EQ(visible("a 'w\u00e4ter' \\u{001b}\nb\n"), "a 'w\u00e4ter' \\u{001b}\nb\n");
+    EXPECT_EQ(visible("\x1b[31m\u202e\xff\t\r"), "\\u{001b}[31m\\u{202e}\\xff\\u{0009}\\u{000d}");
+    EXPECT_EQ(visible(std::string(1000, 'a')), std::string(1000, 'a'));
+}
+
 TEST(TextOfStrangers, IsNotHandedToTheStandardLibrary) {
     const std::string text = "\x1b";
     std::ostringstream out;

@@ -4,6 +4,7 @@
 #include <string>
 #include <system_error>
 
+#include "formats/bytes/read_limits.hpp"
 #include "meniscus/error.hpp"
 #include "values/keywords.hpp"
 
@@ -19,6 +20,7 @@ std::filesystem::path path_of(const py::object& path) {
 }
 
 std::uint64_t size_limit(const py::object& max_bytes) {
+    if (max_bytes.is_none()) return formats::usual_most_bytes();
     return whole_number(max_bytes, "max_bytes", std::numeric_limits<std::uint64_t>::max());
 }
 

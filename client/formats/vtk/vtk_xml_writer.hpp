@@ -1,4 +1,4 @@
-// VTK's XML for polygonal data: arrays as base64, each within its element.
+// VTK's XML, polygonal data or an unstructured grid: arrays as base64, each within its element.
 //
 // Not appended behind the XML, though that is smaller by a quarter: expat 2.6, and Debian's 2.5.0-1+deb12u2, put off
 // looking at what may be half a token (CVE-2023-52425). VTK of that time stops them at the underscore too late, so that
@@ -15,22 +15,25 @@
 
 namespace meniscus::formats {
 
-enum class VtpCompression { none, zlib };
+enum class VtkXmlCompression { none, zlib };
 
-/// Cells of a file by their kind.
-struct VtpCells {
+enum class VtkXmlKind { poly_data, unstructured_grid };
+
+/// Points and cells of a file.
+struct VtkXmlSizes {
+    std::size_t points = 0;
     std::size_t verts = 0;
     std::size_t polys = 0;
 };
 
 /// Writes a file with one piece, atomically: what it was given, once commit() has been called. Arrays go to the file at
 /// once; of a compressed one its compressed form is kept till then.
-class VtpWriter {
+class VtkXmlWriter {
 public:
-    VtpWriter(const std::filesystem::path& path, std::size_t points, VtpCells cells, VtpCompression compression);
+    VtkXmlWriter(const std::filesystem::path& path, VtkXmlKind kind, VtkXmlSizes sizes, VtkXmlCompression compression);
 
-    /// Begins an element of arrays: "Points", "PointData", "CellData", "Verts", "Polys". attributes: of it, "" or
-    /// " Normals=\"Normals\"".
+    /// Begins an element of arrays: "Points", "PointData", "CellData", "Verts", "Polys", "Cells". attributes: of it, ""
+    /// or " Normals=\"Normals\"".
     void begin(std::string_view element, std::string_view attributes = {});
     /// An array in it. type: VTK's, "Float32". bytes: little-endian.
     void add(std::string_view name, std::string_view type, std::size_t components, std::string_view bytes);
@@ -41,7 +44,8 @@ public:
 
 private:
     AtomicFile file_;
-    VtpCompression compression_;
+    std::string_view kind_;  ///< VTK's name of it
+    VtkXmlCompression compression_;
 };
 
 }  // namespace meniscus::formats

@@ -5,7 +5,8 @@
 #include "formats/bytes/scalar.hpp"
 #include "formats/meshes/file_numbers.hpp"
 #include "formats/meshes/mesh_writers.hpp"
-#include "formats/vtk/vtp_writer.hpp"
+#include "formats/vtk/vtk_dataset.hpp"
+#include "formats/vtk/vtk_xml_writer.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -27,7 +28,7 @@ std::vector<std::uint8_t> face_levels(const TriangleMesh& mesh) {
     return levels;
 }
 
-void add_polygons(VtpWriter& out, const TriangleMesh& mesh) {
+void add_faces(VtkXmlWriter& out, const TriangleMesh& mesh) {
     const std::size_t corners = 3 * mesh.triangles.size() + 4 * mesh.quads.size();
     // Up to 2^31 - 1 as VTK's Int32, which is what lies in memory.
     if (corners <= std::size_t{std::numeric_limits<std::int32_t>::max()} &&
@@ -46,11 +47,16 @@ void add_polygons(VtpWriter& out, const TriangleMesh& mesh) {
     out.add("offsets", "Int64", 1, face_ends<std::int64_t>(mesh));
 }
 
-}  // namespace
+std::string face_types(const TriangleMesh& mesh) {
+    std::string types(mesh.triangles.size(), static_cast<char>(VtkCell::triangle));
+    return types.append(mesh.quads.size(), static_cast<char>(VtkCell::quad));
+}
 
-void write_mesh_vtp(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& writing) {
-    const VtpCompression compression = writing.compress ? VtpCompression::zlib : VtpCompression::none;
-    VtpWriter out(path, mesh.positions.size(), {.polys = mesh.triangles.size() + mesh.quads.size()}, compression);
+void write_mesh_vtk_xml(const std::filesystem::path& path, VtkXmlKind kind, const TriangleMesh& mesh,
+                        const MeshWriting& writing) {
+    const VtkXmlCompression compression = writing.compress ? VtkXmlCompression::zlib : VtkXmlCompression::none;
+    VtkXmlWriter out(path, kind, {.points = mesh.positions.size(), .polys = mesh.triangles.size() + mesh.quads.size()},
+                     compression);
     out.begin("PointData", mesh.normals.empty() ? "" : " Normals=\"Normals\"");
     if (!mesh.normals.empty()) out.add("Normals", "Float32", 3, bytes_of(mesh.normals.data(), mesh.normals.size()));
     for (const NamedValues& attribute : mesh.attributes) out.add(attribute.view());
@@ -62,10 +68,22 @@ void write_mesh_vtp(const std::filesystem::path& path, const TriangleMesh& mesh,
     out.begin("Points");
     out.add("Points", mesh.wide ? "Float64" : "Float32", 3, coordinate_bytes(mesh.positions, mesh.wide));
     out.end("Points");
-    out.begin("Polys");
-    add_polygons(out, mesh);
-    out.end("Polys");
+    const std::string_view cells = kind == VtkXmlKind::poly_data ? "Polys" : "Cells";
+    out.begin(cells);
+    add_faces(out, mesh);
+    if (kind == VtkXmlKind::unstructured_grid) out.add("types", "UInt8", 1, face_types(mesh));
+    out.end(cells);
     out.commit();
+}
+
+}  // namespace
+
+void write_mesh_vtp(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& writing) {
+    write_mesh_vtk_xml(path, VtkXmlKind::poly_data, mesh, writing);
+}
+
+void write_mesh_vtu(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshWriting& writing) {
+    write_mesh_vtk_xml(path, VtkXmlKind::unstructured_grid, mesh, writing);
 }
 
 }  // namespace meniscus::formats

@@ -1,4 +1,4 @@
-#include "formats/vtk/vtp_writer.hpp"
+#include "formats/vtk/vtk_xml_writer.hpp"
 
 #include <zlib.h>
 
@@ -72,38 +72,46 @@ void write_plain(AtomicFile& file, std::string_view bytes) {
 
 }  // namespace
 
-VtpWriter::VtpWriter(const std::filesystem::path& path, std::size_t points, VtpCells cells, VtpCompression compression)
-    : file_(path), compression_(compression) {
-    file_.write(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-        "header_type=\"UInt64\"");
-    if (compression_ == VtpCompression::zlib) file_.write(" compressor=\"vtkZLibDataCompressor\"");
-    file_.write(">\n  <PolyData>\n    <Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfVerts=\"" +
-                std::to_string(cells.verts) + "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-                std::to_string(cells.polys) + "\">\n");
+VtkXmlWriter::VtkXmlWriter(const std::filesystem::path& path, VtkXmlKind kind, VtkXmlSizes sizes,
+                           VtkXmlCompression compression)
+    : file_(path), kind_(kind == VtkXmlKind::poly_data ? "PolyData" : "UnstructuredGrid"), compression_(compression) {
+    const std::string name(kind_);
+    file_.write("<?xml version=\"1.0\"?>\n<VTKFile type=\"" + name +
+                "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"");
+    if (compression_ == VtkXmlCompression::zlib) file_.write(" compressor=\"vtkZLibDataCompressor\"");
+    file_.write(">\n  <" + name + ">\n    <Piece NumberOfPoints=\"" + std::to_string(sizes.points));
+    file_.write(kind == VtkXmlKind::unstructured_grid
+                    ? "\" NumberOfCells=\"" + std::to_string(sizes.verts + sizes.polys)
+                    : "\" NumberOfVerts=\"" + std::to_string(sizes.verts) +
+                          "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(sizes.polys));
+    file_.write("\">\n");
 }
 
-void VtpWriter::begin(std::string_view element, std::string_view attributes) {
+void VtkXmlWriter::begin(std::string_view element, std::string_view attributes) {
     file_.write(std::string("      <").append(element).append(attributes).append(">\n"));
 }
 
-void VtpWriter::end(std::string_view element) {
+void VtkXmlWriter::end(std::string_view element) {
     file_.write(std::string("      </").append(element).append(">\n"));
 }
 
-void VtpWriter::add(std::string_view name, std::string_view type, std::size_t components, std::string_view bytes) {
-    file_.write(std::string("        <DataArray type=\"").append(type).append("\" Name=\"").append(name) +
-                "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"binary\">\n");
-    compression_ == VtpCompression::zlib ? write_blocks(file_, bytes) : write_plain(file_, bytes);
+void VtkXmlWriter::add(std::string_view name, std::string_view type, std::size_t components, std::string_view bytes) {
+    // meshio makes a matrix of what has their number, be it 1, which goes without saying.
+    const std::string number =
+        components == 1 ? std::string() : "\" NumberOfComponents=\"" + std::to_string(components);
+    file_.write(
+        std::string("        <DataArray type=\"").append(type).append("\" Name=\"").append(name).append(number) +
+        "\" format=\"binary\">\n");
+    compression_ == VtkXmlCompression::zlib ? write_blocks(file_, bytes) : write_plain(file_, bytes);
     file_.write("\n        </DataArray>\n");
 }
 
-void VtpWriter::add(const ParticleArray& array) {
+void VtkXmlWriter::add(const ParticleArray& array) {
     add(array.name, vtk_type_of(array.type), array.components, bytes_of(array.data.data(), array.data.size()));
 }
 
-void VtpWriter::commit() {
-    file_.write("    </Piece>\n  </PolyData>\n</VTKFile>\n");
+void VtkXmlWriter::commit() {
+    file_.write(std::string("    </Piece>\n  </").append(kind_).append(">\n</VTKFile>\n"));
     file_.commit();
 }
 
