@@ -4,6 +4,7 @@
 #include <grpcpp/security/credentials.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -58,7 +59,11 @@ std::shared_ptr<grpc::Channel> open_channel(const std::string& address, const Co
 }
 
 bool is_web_address(const std::string& address) {
-    return address.starts_with("http://") || address.starts_with("https://");
+    const std::size_t end = address.find("://");
+    if (end == std::string::npos) return false;
+    std::string scheme = address.substr(0, end);
+    std::ranges::transform(scheme, scheme.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return scheme == "http" || scheme == "https";
 }
 
 /// Throws InvalidInput for an address that is none, or that looks like one with a port.

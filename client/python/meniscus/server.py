@@ -99,13 +99,11 @@ def _program(given: Optional[Union[str, os.PathLike[str]]]) -> str:
     if given is not None:
         return os.fspath(given)
     package = Path(__file__).resolve().parent
-    beside = [
-        package.parents[2] / "server" / "meniscusd",  # in a build folder
-        package.parents[3] / "bin" / "meniscusd",  # below a prefix
-    ]
-    for path in beside:
+    in_build, below_prefix = "../../../server/meniscusd", "../../../../bin/meniscusd"
+    for place in in_build, below_prefix:
+        path = os.path.normpath(package / place)
         if os.access(path, os.X_OK):
-            return str(path)
+            return path
     if (found := shutil.which("meniscusd")) is None:
         raise InvalidInput("there is no meniscusd on PATH: install it, or give its path as program")
     return found

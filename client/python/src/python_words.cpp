@@ -48,17 +48,19 @@ std::string_view first_word(std::string_view text) {
     return text.substr(0, text.find_first_not_of("abcdefghijklmnopqrstuvwxyz-"));
 }
 
-/// Where a server tells of the id as the call's metadata have it.
-std::string without_metadata(std::string message) {
-    constexpr std::string_view key = "x-session-id";
-    if (message.starts_with(key)) message.replace(0, key.size(), "the session's id");
+/// What a server calls by its name on the wire.
+std::string without_wire_names(std::string message) {
+    constexpr std::string_view id = "x-session-id", recordings = "; ListRecordings tells";
+    if (message.starts_with(id)) message.replace(0, id.size(), "the session's id");
+    if (const std::size_t place = message.find(recordings); place != std::string::npos)
+        message.replace(place, recordings.size(), "; recordings() tells");
     return message;
 }
 
 }  // namespace
 
 std::string in_python_words(std::string_view text) {
-    const std::string whole = without_metadata(std::string(text));
+    const std::string whole = without_wire_names(std::string(text));
     std::string_view message = whole;
     std::string out;
     for (std::size_t dashes = message.find("--"); dashes != std::string_view::npos; dashes = message.find("--")) {

@@ -7,7 +7,7 @@
 namespace meniscus::python {
 
 /// A message in which the flags of the command line are keywords: smoothness for --smoothness, field="color" for
-/// --field color; a session's id is called so.
+/// --field color; calls of the wire are methods.
 std::string in_python_words(std::string_view text);
 
 }  // namespace meniscus::python

@@ -82,9 +82,10 @@ def test_a_server_that_does_not_start_says_why():
         meniscus.Server(program="/nowhere/meniscusd")
 
 
-def test_without_a_program_there_is_a_sentence(monkeypatch):
+@pytest.mark.parametrize("folder", ["/nowhere/lib/python3/dist-packages/meniscus", "/meniscus"])
+def test_without_a_program_there_is_a_sentence(folder, monkeypatch):
     monkeypatch.setenv("PATH", "/nowhere")
-    monkeypatch.setattr("meniscus.server.os.access", lambda *_: False)
+    monkeypatch.setattr("meniscus.server.__file__", f"{folder}/server.py")
     with pytest.raises(meniscus.InvalidInput, match="no meniscusd on PATH: install it, or give its path as program"):
         meniscus.Server()
 

@@ -46,6 +46,12 @@ def test_a_path_with_the_name_of_a_flag_stays_what_it_is():
         assert path in str(raised.value)
 
 
+def test_a_recording_that_is_not_there_names_the_method_that_lists_them(client, session):
+    with pytest.raises(meniscus.ServerError) as raised:
+        client.read_recording(session, 1).next(60)
+    assert "recordings()" in str(raised.value) and "ListRecordings" not in str(raised.value)
+
+
 def test_an_id_that_is_none_is_told_without_the_wire(client):
     with pytest.raises(meniscus.InvalidInput) as raised:
         client.session(0.05, id="dam")

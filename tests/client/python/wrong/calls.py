@@ -34,7 +34,7 @@ ADDRESSES = [
         "address: no such host", _connect("nowhere.invalid:1", timeout=5), Server, "nowhere.invalid", "name is known"
     ),
     wrong("address: of a page", _connect("http://127.0.0.1:9464"), Bad, "http://127", "HOST:PORT alone", "50051"),
-    wrong("address: of a page with TLS", _connect("https://water.example/"), Bad, "https://water", "HOST:PORT alone"),
+    wrong("address: of a page with TLS", _connect("HTTPS://water.example/"), Bad, "HTTPS://water", "HOST:PORT alone"),
 ]
 
 CONNECTIONS = {
