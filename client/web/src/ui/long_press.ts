@@ -13,6 +13,8 @@ export function nameOnLongPress(bar: HTMLElement, hint: HTMLElement): void {
     if (named)
       timer = setTimeout(() => {
         hint.hidden = true;
+        // A click that has not come by now does not belong to it.
+        named = false;
       }, stays);
   };
   bar.addEventListener('pointerdown', ({ pointerType, target }) => {

@@ -12,7 +12,7 @@ import { Code, explain, RpcError } from '../rpc/status';
 import { factsOfSession } from '../scene_facts';
 import { arrange } from './arrange';
 import type { Banner } from './banner';
-import { fillCommand } from './commands';
+import { fillCommand, writeCommand } from './commands';
 import { element } from './page';
 import { followSearch, searched } from './search_field';
 import { SessionCard } from './session_card';
@@ -79,7 +79,7 @@ export class SessionList {
       const [info, sessions] = await Promise.all([this.server.info(), this.server.sessions()]);
       if (showing !== this.showing) return;
       element('server', HTMLElement).textContent = `meniscusd ${info.version}, ${info.backend} on ${info.device}`;
-      element('fill-command', HTMLElement).textContent = fillCommand(location.hostname);
+      writeCommand(element('fill-command', HTMLElement), fillCommand(location.hostname));
       this.sessions = sessions;
       this.rates.update(sessions, performance.now());
       this.fill();

@@ -15,8 +15,10 @@ export function askToken(another: boolean, reason: string): Promise<string | und
   element('token-reason', HTMLElement).textContent = reason;
   element('token-heading', HTMLElement).textContent = another ? 'Another token is needed' : 'A token is needed';
   dialog.returnValue = '';
-  if (!dialog.open) dialog.showModal();
-  input.select();
+  if (!dialog.open) {
+    dialog.showModal();
+    input.select();
+  }
   return new Promise((resolve) => {
     dialog.addEventListener(
       'close',

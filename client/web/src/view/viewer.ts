@@ -218,6 +218,8 @@ export class Viewer {
     this.origin = [0, 0, 0];
     this.environment.floorCenter.value.set(0, 0, 0);
     this.environment.sceneSize.value = 1;
+    this.environment.gridOrigin.value.set(0, 0, 0);
+    this.environment.gridStep.value = roundLength(gridPart);
     this.controls.place(fitDirection.clone().multiplyScalar(2), new Vector3());
     this.placeInScene();
   }
@@ -462,7 +464,7 @@ export class Viewer {
     // Under the lowest corner, whichever axis is up.
     this.environment.floorCenter.value.set(0, this.inScene(box.min).y, 0);
     // The floor's lines lie at round lengths, and stay while the water moves.
-    const step = roundLength(gridPart * size(box));
+    const step = roundLength(gridPart * (size(box) || 1));
     const { x, z } = this.inScene([0, 0, 0]);
     this.environment.gridStep.value = step;
     this.environment.gridOrigin.value.set(x % step, 0, z % step);
