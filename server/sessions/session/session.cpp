@@ -183,7 +183,8 @@ void Session::end_upload(std::shared_ptr<Upload> upload, std::exception_ptr erro
 void Session::cancel_upload(const std::shared_ptr<Upload>& upload, UploadEnd end) {
     {
         const std::lock_guard lock(mutex_);
-        if (end == UploadEnd::vanished && upload_ == upload) orphaned_ = true;
+        // Not only while it sends: it may have been taken for one that has ended.
+        if (end == UploadEnd::vanished && last_upload_ == upload.get()) orphaned_ = true;
         // One that looked as if it had ended well may have been broken off all the same.
         if (last_upload_ == upload.get() && !upload->canceled && (end != UploadEnd::answered || has_stream())) {
             without_stream_since_ = std::chrono::steady_clock::now();
