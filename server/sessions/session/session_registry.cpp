@@ -34,6 +34,7 @@ std::chrono::milliseconds idle_check_interval(const Limits& limits) {
     for (const auto time : {limits.idle_time, limits.orphan_time, limits.ephemeral_time, limits.idle_buffers_time,
                             limits.least_pace.time})
         if (time.count() != 0) shortest = std::min(shortest, time);
+    if (limits.bytes_in_flight != 0) shortest = std::min(shortest, 4 * std::chrono::milliseconds(1000));
     if (shortest == std::chrono::milliseconds::max()) return {};
     return std::clamp(shortest / 4, std::chrono::milliseconds(10), std::chrono::milliseconds(10'000));
 }
@@ -262,6 +263,7 @@ void SessionRegistry::end_idle(std::chrono::steady_clock::time_point now) {
         return release.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     });
     if (sessions_have_ended_.exchange(false) || released != 0) return_free_pages();
+    bytes_in_flight_->look_again();
     const bool memory_is_short = idle_buffers_->short_within(limits_.least_pace.time + std::chrono::minutes(1));
     for (const auto& session : list()) {
         const auto resting_since = session->resting_since();
