@@ -39,6 +39,10 @@ std::chrono::milliseconds idle_check_interval(const Limits& limits) {
     return std::clamp(shortest / 4, std::chrono::milliseconds(10), std::chrono::milliseconds(10'000));
 }
 
+/// For which a frame has the processors alone while others wait. Afterwards they have their turns beside it, and no
+/// frame is stopped that needs its time. Not on a GPU, whose memory few frames leave room in.
+constexpr std::chrono::seconds longest_turn{4};
+
 std::string place_name(const BackendOptions& backend) {
     return backend.backend == Backend::cuda ? fmt::format("GPU {}", backend.device) : "the CPU";
 }
@@ -231,8 +235,13 @@ std::shared_ptr<SharedMemory> SessionRegistry::shared_memory(std::size_t limit) 
 
 SharedResources SessionRegistry::shared_on(const BackendOptions& place) {
     constexpr int cpu = -1;
-    auto& turns = turns_[place.backend == Backend::cuda ? place.device : cpu];
-    if (!turns) turns = std::make_shared<Turns>();
+    const bool is_gpu = place.backend == Backend::cuda;
+    auto& turns = turns_[is_gpu ? place.device : cpu];
+    // A frame beside another one has half of the memory for itself at least.
+    const auto have_room = [memory = memory_] {
+        return memory->limit() == 0 || memory->bytes() <= memory->limit() / 2;
+    };
+    if (!turns) turns = is_gpu ? std::make_shared<Turns>() : std::make_shared<Turns>(longest_turn, have_room);
     return {.workers = workers_,
             .metrics = metrics_,
             .turns = turns,
