@@ -69,6 +69,13 @@ SessionState Session::state() const {
     return state;
 }
 
+std::string Session::instance() const {
+    using std::chrono::microseconds;
+    const auto created = std::chrono::duration_cast<microseconds>(created_at_.time_since_epoch());
+    const std::lock_guard lock(mutex_);
+    return fmt::format("{:x}.{}", created.count(), runs_);
+}
+
 std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::function<void()> wake,
                                              std::function<void()> drain,
                                              std::function<void(std::exception_ptr)> stop) {
@@ -87,6 +94,7 @@ std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::
         orphaned_ = false;
         awaited_for_ = {};
         set_upload(upload);
+        if (run_ != upload->run) ++runs_;
         run_ = upload->run;
         unanswered_.push_back(upload);
         last_upload_ = upload.get();
