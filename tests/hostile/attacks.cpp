@@ -19,6 +19,7 @@ std::span<const Attack> attacks() {
         {"invisible-names", "names of sessions that look like another, or like none", invisible_names},
         {"killed-simulators", "300 simulators killed at random moments, under each policy, and ten that leave",
          killed_simulators},
+        {"large-requests", "512 MiB in one message of callers that are admitted, three at a time", large_requests},
         {"large-sessions", "six sessions that take all the memory of reconstructions, beside ten small ones",
          large_sessions},
         {"proxied-strangers", "600,000 resets, and headers without an end, through the shipped proxies",

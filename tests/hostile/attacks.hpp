@@ -22,6 +22,7 @@ std::vector<Figure> half_open_calls(const std::string& program);
 std::vector<Figure> http_clients(const std::string& program);
 std::vector<Figure> invisible_names(const std::string& program);
 std::vector<Figure> killed_simulators(const std::string& program);
+std::vector<Figure> large_requests(const std::string& program);
 std::vector<Figure> large_sessions(const std::string& program);
 std::vector<Figure> proxied_strangers(const std::string& program);
 std::vector<Figure> restarts(const std::string& program);
