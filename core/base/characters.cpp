@@ -30,7 +30,8 @@ constexpr std::array<Range, 14> controls{{
     {0xE0100, 0xE01EF},  // variation selectors
 }};
 
-/// The rest of Unicode's Default_Ignorable_Code_Point and of its format characters without ink.
+/// The rest of Unicode's Default_Ignorable_Code_Point (14.0, DerivedCoreProperties.txt), but for joiners and the
+/// variation selectors of emoji, and of its format characters without ink.
 constexpr std::array<Range, 13> fillers{{
     {0x034F, 0x034F},    // combining grapheme joiner
     {0x115F, 0x1160},    // Hangul fillers
@@ -51,6 +52,11 @@ template <std::size_t N>
 bool is_in(const std::array<Range, N>& ranges, char32_t c) {
     return std::any_of(ranges.begin(), ranges.end(),
                        [&](const Range& range) { return range.first <= c && c <= range.last; });
+}
+
+/// Of Unicode's 66 noncharacters: those at the end of each plane, and 32 among Arabic forms.
+bool is_noncharacter(char32_t c) {
+    return (c & 0xFFFEU) == 0xFFFE || (c >= 0xFDD0 && c <= 0xFDEF);
 }
 
 /// Bytes of the character that begins with this one; 0 if none does.
@@ -87,7 +93,7 @@ bool is_control(char32_t code_point) {
 }
 
 bool is_filler(char32_t code_point) {
-    return is_in(fillers, code_point);
+    return is_in(fillers, code_point) || is_noncharacter(code_point);
 }
 
 }  // namespace meniscus

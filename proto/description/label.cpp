@@ -18,16 +18,15 @@ struct Range {
 };
 
 /// The characters that a label may have and that leave no ink.
-constexpr std::array<Range, 9> blank{{
+constexpr std::array<Range, 8> blank{{
     {0x0020, 0x0020},
     {0x00A0, 0x00A0},
-    {0x115F, 0x1160},  // Hangul fillers
     {0x2000, 0x200D},  // spaces and joiners
     {0x202F, 0x202F},
     {0x205F, 0x205F},
     {0x2800, 0x2800},  // Braille pattern blank
     {0x3000, 0x3000},
-    {0x3164, 0x3164},  // Hangul filler
+    {0xFE0E, 0xFE0F},  // variation selectors of emoji
 }};
 
 bool is_blank(char32_t c) {
@@ -45,8 +44,9 @@ void require_label(std::string_view label, std::string_view what, std::size_t mo
     for_each_character(label, [&](const Character& character) {
         const std::string_view bytes = character.bytes;
         if (!character.code_point) fail(rule + ", and has the byte " + escaped(bytes) + ", which is not UTF-8");
-        if (is_control(*character.code_point)) fail(rule + ", and has " + escaped(bytes));
-        visible = visible || !is_blank(*character.code_point);
+        const char32_t c = *character.code_point;
+        if (is_control(c) || is_filler(c)) fail(rule + ", and has " + escaped(bytes));
+        visible = visible || !is_blank(c);
     });
     const std::size_t count = count_characters(label);
     if (count > most) fail(rule + ", and has " + std::to_string(count));

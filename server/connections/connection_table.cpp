@@ -1,6 +1,6 @@
 #include "connections/connection_table.hpp"
 
-#include <sys/stat.h>
+#include "connections/descriptors.hpp"
 
 namespace meniscus::server {
 
@@ -8,12 +8,6 @@ namespace {
 
 /// A look at thousands of connections takes a millisecond: not for each of the thousands that a full port refuses.
 constexpr auto sweep_gap = std::chrono::milliseconds(20);
-
-/// 0: there is no such descriptor.
-ino_t inode_of(int descriptor) {
-    struct stat status {};
-    return ::fstat(descriptor, &status) == 0 ? status.st_ino : 0;
-}
 
 }  // namespace
 

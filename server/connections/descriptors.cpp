@@ -1,6 +1,7 @@
 #include "connections/descriptors.hpp"
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 
@@ -24,6 +25,11 @@ std::size_t descriptor_limit() {
     constexpr std::size_t usual = 1024;
     if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return usual;
     return std::min<std::size_t>(limit.rlim_cur, most_descriptors);
+}
+
+ino_t inode_of(int descriptor) {
+    struct stat status {};
+    return ::fstat(descriptor, &status) == 0 ? status.st_ino : 0;
 }
 
 std::size_t raise_descriptor_limit() {

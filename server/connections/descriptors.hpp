@@ -1,6 +1,8 @@
 // How many connections the descriptors of this process are enough for.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 
 namespace meniscus::server {
@@ -10,6 +12,9 @@ std::size_t raise_descriptor_limit();
 
 /// The limit of descriptors of this process.
 std::size_t descriptor_limit();
+
+/// The file of a descriptor, by which it is known again; 0: there is no such descriptor.
+ino_t inode_of(int descriptor);
 
 /// The most connections of each port at a time. All of them together, with the server's own descriptors, are fewer than
 /// the process's descriptors, so that a full port leaves room for the others.

@@ -98,6 +98,7 @@ bool GrpcPort::accept_one(int socket) {
         ::close(connection);
         return true;
     }
+    received_bytes_.enter(connection, peer);
     grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
     parameters.listener_fd = socket;
     parameters.fd = connection;

@@ -14,6 +14,7 @@
 #include "connections/connection_table.hpp"
 #include "connections/listening_sockets.hpp"
 #include "connections/own_connections.hpp"
+#include "connections/received_bytes.hpp"
 #include "process/line_limit.hpp"
 
 namespace meniscus::server {
@@ -37,6 +38,7 @@ public:
     const std::string& address() const noexcept { return sockets_.address(); }
     const std::vector<int>& sockets() const noexcept { return sockets_.descriptors(); }
     OwnConnections& own_connections() noexcept { return own_; }
+    const ReceivedBytesOfPeers& received_bytes() const noexcept { return received_bytes_; }
     Counts counts();
 
     /// grpc: of a server that has started. Once.
@@ -54,6 +56,7 @@ private:
 
     ListeningSockets sockets_;
     OwnConnections own_;
+    ReceivedBytesOfPeers received_bytes_;
     int wake_;  ///< readable once the thread is to end
     std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> grpc_;
     LineLimit refusals_;

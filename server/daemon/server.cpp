@@ -32,6 +32,7 @@
 #include "rpc/services/call_counter.hpp"
 #include "rpc/services/health_service.hpp"
 #include "rpc/services/known_methods.hpp"
+#include "rpc/services/request_guard.hpp"
 #include "rpc/services/server_instance.hpp"
 #include "rpc/services/services.hpp"
 #include "rpc/services/standard_services.hpp"
@@ -281,6 +282,8 @@ Server::Impl::Impl(const ServerOptions& options)
     std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
     interceptors.push_back(make_call_counter(metrics_));
     interceptors.push_back(make_instance_marker());
+    interceptors.push_back(make_request_guard(
+        [this](const std::string& peer) { return port_.received_bytes().of(peer); }, options.limits.message_bytes));
     builder.experimental().SetInterceptorCreators(std::move(interceptors));
     grpc_ = builder.BuildAndStart();
     if (!grpc_) throw InvalidInput(fmt::format("gRPC cannot serve {}", options.listen));

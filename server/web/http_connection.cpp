@@ -136,6 +136,9 @@ void HttpConnection::answer() {
     const std::string_view host = view(request[http::field::host]);
     const AllowedOrigins& origins = content_.grpc_web.origins;
     busy_ = true;
+    constexpr unsigned http_1_1 = 11;
+    if (request.version() >= http_1_1 && request.count(http::field::host) == 0)
+        return refuse(400, "The request names no host: HTTP/1.1 asks for the header Host.\n");
     if (request.count(http::field::host) > 1) return refuse(400, "The request names more than one host.\n");
     is_call_ = content_.grpc_web.channel && is_method(path);
     is_mesh_ = content_.grpc_web.channel && is_mesh_target(path);

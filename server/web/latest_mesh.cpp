@@ -100,6 +100,7 @@ void LatestMesh::take_part(const grpc::ByteBuffer& message) {
     if (!announced_) {
         const auto first = parsed<v1::WatchResponse>(message);
         announced_ = first.has_mesh_begin();
+        instance_ = call_->initial_metadata("x-session-instance");
         if (announced_) early_ = early_answer(first.mesh_begin());
     }
     if (early_)
@@ -109,7 +110,7 @@ void LatestMesh::take_part(const grpc::ByteBuffer& message) {
 }
 
 std::optional<Page> LatestMesh::early_answer(const v1::MeshBegin& mesh) {
-    const std::string tag = entity_tag(asked_, mesh);
+    const std::string tag = entity_tag(asked_, instance_, mesh);
     if (!tag.empty() && (if_none_match_ == "*" || if_none_match_.find(tag) != std::string::npos))
         return with_tag({.status = 304}, tag);
     try {
@@ -154,7 +155,7 @@ Page LatestMesh::decoded() const {
     try {
         MeshGlb glb = mesh_glb(asked_, messages_, up_, canceled_);
         return with_tag({.content_type = "model/gltf-binary", .body = std::move(glb.file)},
-                        entity_tag(asked_, glb.mesh));
+                        entity_tag(asked_, instance_, glb.mesh));
     } catch (const LimitExceeded& refusal) {
         return {.status = insufficient_storage, .body = std::string(refusal.what()) + '\n'};
     } catch (const std::exception& error) {

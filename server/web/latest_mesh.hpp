@@ -72,6 +72,7 @@ private:
     std::shared_ptr<BridgedCall> call_;  ///< until its end
     std::vector<grpc::ByteBuffer> messages_;
     bool announced_ = false;     ///< the mesh
+    std::string instance_;       ///< of the session, once announced
     std::optional<Page> early_;  ///< the answer, while the call ends
     RetainedMemory memory_;      ///< for the file and its making
     v1::UpAxis up_ = v1::UP_AXIS_UNSPECIFIED;

@@ -72,10 +72,10 @@ v1::SnapshotRequest snapshot_request(const MeshRequest& asked) {
     return request;
 }
 
-std::string entity_tag(const MeshRequest& asked, const v1::MeshBegin& mesh) {
+std::string entity_tag(const MeshRequest& asked, std::string_view instance, const v1::MeshBegin& mesh) {
     if (mesh.run_id() == 0) return {};
     std::string tag =
-        fmt::format("\"{:016x}-{}-{}", mesh.run_id(), mesh.frame_index(), asked.draco ? "draco" : "plain");
+        fmt::format("\"{}-{:016x}-{}-{}", instance, mesh.run_id(), mesh.frame_index(), asked.draco ? "draco" : "plain");
     for (const std::string& name : asked.attributes) tag += '+' + name;
     return tag + '"';
 }

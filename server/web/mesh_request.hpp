@@ -26,8 +26,8 @@ MeshRequest mesh_request(std::string_view target);
 
 v1::SnapshotRequest snapshot_request(const MeshRequest& asked);
 
-/// Equal only for equal files. Empty for a run without a name: nothing sets its frames apart from those
-/// of another.
-std::string entity_tag(const MeshRequest& asked, const v1::MeshBegin& mesh);
+/// Equal only for equal files. instance: of the session, which the snapshot's metadata has. Empty for a run without a
+/// name: nothing sets its frames apart from those of another.
+std::string entity_tag(const MeshRequest& asked, std::string_view instance, const v1::MeshBegin& mesh);
 
 }  // namespace meniscus::server

@@ -83,14 +83,14 @@ Seeds http_seeds() {
     return {
         "GET /healthz HTTP/1.1\r\nHost: a\r\n\r\nHEAD /none?a=b HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n",
         "GET /none HTTP/1.0\r\n\r\n",
-        "POST /healthz HTTP/1.1\r\nContent-Length: 3\r\n\r\nabc",
-        "GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n3\r\nabc\r\n0\r\n\r\n",
+        "POST /healthz HTTP/1.1\r\nHost: a\r\nContent-Length: 3\r\n\r\nabc",
+        "GET / HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\n3\r\nabc\r\n0\r\n\r\n",
         "GET / HTTP/1.1\r\nHost: 10.0.0.1:9464\r\nAccept-Encoding: br, gzip;q=0.5\r\nIf-None-Match: W/\"1a\"\r\n\r\n",
         "OPTIONS /meniscus.v1.SurfaceService/Watch HTTP/1.1\r\nHost: [::1]:9464\r\nOrigin: "
         "http://localhost:5173\r\n\r\n",
         call("grpc-timeout: 100m\r\nX-Session-Id: a\r\n", std::string(5, '\0')),
         call("Authorization: Bearer a\r\nOrigin: http://localhost\r\n", std::string("\0\0\0\0\3abc", 8)),
-        "POST /meniscus.v1.ServerService/GetServerInfo HTTP/1.1\r\nContent-Type: "
+        "POST /meniscus.v1.ServerService/GetServerInfo HTTP/1.1\r\nHost: a\r\nContent-Type: "
         "application/grpc-web\r\nTransfer-Encoding: chunked\r\n\r\n" +
             std::string("5\r\n\0\0\0\0\0\r\n0\r\n\r\n", 15)};
 }

@@ -13,13 +13,16 @@ namespace meniscus::hostile {
 
 class RawStream {
 public:
-    RawStream(const std::string& address, const std::string& session, const client::ConnectionOptions& options = {})
+    /// run: 0 for one without a name.
+    RawStream(const std::string& address, const std::string& session, const client::ConnectionOptions& options = {},
+              std::uint64_t run = 0)
         : connection_(address, options) {
         connection_.add_metadata(context_, session);
         context_.set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(9));
         call_ = connection_.surfaces->Stream(&context_);
         v1::StreamRequest request;
         request.mutable_open()->set_session_id(session);
+        request.mutable_open()->set_run_id(run);
         call_->Write(request);
     }
 
@@ -40,6 +43,7 @@ public:
         request.mutable_frame_end();
         return call_->Write(request);
     }
+    void send_no_more() { call_->WritesDone(); }
     void cancel() { context_.TryCancel(); }
     /// Reads to the end.
     grpc::Status finish() {

@@ -17,6 +17,15 @@ std::string repeated(const std::string& text, int count) {
     return out;
 }
 
+/// Of a character beyond ASCII.
+std::string utf8(char32_t c) {
+    const auto byte = [](char32_t bits) { return static_cast<char>(bits); };
+    const auto tail = [&](unsigned shift) { return byte(0x80 | (c >> shift & 0x3F)); };
+    if (c < 0x800) return {byte(0xC0 | c >> 6), tail(0)};
+    if (c < 0x10000) return {byte(0xE0 | c >> 12), tail(6), tail(0)};
+    return {byte(0xF0 | c >> 18), tail(12), tail(6), tail(0)};
+}
+
 std::string refusal(const std::string& name) {
     try {
         require_name(name);
@@ -45,15 +54,36 @@ TEST(SessionName, HasAtMost64CharactersHoweverManyBytesTheyAre) {
 
 TEST(SessionName, HasNoControlsNorMarksOfDirectionNorOtherInvisibleCharacters) {
     for (const std::string& bad :
-         {std::string("\0", 1), std::string("\n"), std::string("\x1b[2J"), std::string("\x7f"), std::string("\u0080"),
-          std::string("\u009b"), std::string("\u061c"), std::string("\u200b"), std::string("\u200e"),
-          std::string("\u200f"), std::string("\u2028"), std::string("\u2029"), std::string("\u202a"),
-          std::string("\u202e"), std::string("\u2066"), std::string("\u2069"), std::string("\ufeff"),
-          std::string("\U000E0041")}) {
+         {std::string("\0", 1),  std::string("\n"),         std::string("\x1b[2J"), std::string("\x7f"),
+          std::string("\u0080"), std::string("\u009b"),     std::string("\u061c"),  std::string("\u200b"),
+          std::string("\u200e"), std::string("\u200f"),     std::string("\u2028"),  std::string("\u2029"),
+          std::string("\u202a"), std::string("\u202e"),     std::string("\u2066"),  std::string("\u2069"),
+          std::string("\ufeff"), std::string("\U000E0041"), std::string("\u034f"),  std::string("\U0001D173"),
+          std::string("\u1160"), std::string("\u3164"),     std::string("\uffa0"),  std::string("\ufdd0"),
+          std::string("\ufffe"), std::string("\U0010ffff")}) {
         const std::string why = refusal("water" + bad + "fall");
         EXPECT_NE(why, "") << meniscus::escaped(bad);
         for (const unsigned char c : why) EXPECT_TRUE(c >= ' ' && c < 0x7f) << why;
     }
+}
+
+/// Unicode 14.0, DerivedCoreProperties.txt: Default_Ignorable_Code_Point.
+TEST(SessionName, HasNoCharacterToIgnoreButJoinersAndEmojisSelectorsBesideOthers) {
+    struct Range {
+        char32_t first;
+        char32_t last;
+    };
+    for (const Range range :
+         {Range{0xAD, 0xAD}, Range{0x34F, 0x34F}, Range{0x61C, 0x61C}, Range{0x115F, 0x1160}, Range{0x17B4, 0x17B5},
+          Range{0x180B, 0x180F}, Range{0x200B, 0x200F}, Range{0x202A, 0x202E}, Range{0x2060, 0x206F},
+          Range{0x3164, 0x3164}, Range{0xFE00, 0xFE0F}, Range{0xFEFF, 0xFEFF}, Range{0xFFA0, 0xFFA0},
+          Range{0xFFF0, 0xFFF8}, Range{0x1BCA0, 0x1BCA3}, Range{0x1D173, 0x1D17A}, Range{0xE0000, 0xE0FFF}})
+        for (char32_t c = range.first; c <= range.last; ++c) {
+            const std::string ignorable = utf8(c);
+            const bool is_needed = c == 0x200C || c == 0x200D || c == 0xFE0E || c == 0xFE0F;
+            ASSERT_EQ(refusal("water" + ignorable + "fall").empty(), is_needed) << meniscus::escaped(ignorable);
+            ASSERT_NE(refusal(ignorable), "") << meniscus::escaped(ignorable);
+        }
 }
 
 TEST(SessionName, IsUtf8) {
@@ -63,7 +93,7 @@ TEST(SessionName, IsUtf8) {
 }
 
 TEST(SessionName, CanBeSeen) {
-    for (const std::string blank : {" ", "   ", "\u00a0", "\u3000", "\u200d", "\u3164"})
+    for (const std::string blank : {" ", "   ", "\u00a0", "\u3000", "\u200d", "\ufe0f", "\u200d\ufe0e "})
         EXPECT_NE(refusal(blank).find("can be seen"), std::string::npos) << refusal(blank);
 }
 

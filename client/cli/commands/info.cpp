@@ -64,9 +64,20 @@ void print_this_process(Backend choice) {
     print_backend(std::string(version()), backend.name, backend.reason, backend.device);
 }
 
+/// Whether a server that cannot be reached is healthy, it cannot say: one that is full turns this check away, too.
+bool is_serving(const ServerFlags& server) {
+    try {
+        return client::Client(server.address, server.connection()).serving();
+    } catch (const client::ServerError& error) {
+        throw std::runtime_error(std::string(error.what()) +
+                                 "; a server that is full (--max-connections) turns this check away, too: ask "
+                                 "/healthz of its HTTP port");
+    }
+}
+
 /// For a container's health check, which has no token to describe the server with.
 void print_health(const ServerFlags& server) {
-    if (!server.connect().serving()) throw std::runtime_error("the server at " + server.address + " is shutting down");
+    if (!is_serving(server)) throw std::runtime_error("the server at " + server.address + " is shutting down");
     std::cout << "health                 serving\n";
 }
 

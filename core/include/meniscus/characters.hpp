@@ -29,7 +29,8 @@ void for_each_character(std::string_view text, const Visit& visit) {
 /// Joiners and the variation selectors of emoji, which some scripts need, are none.
 bool is_control(char32_t code_point);
 
-/// Leaves no ink, and is neither a control, a space nor a joiner: a text with it looks like the text without it.
+/// Leaves no ink, and is neither a control, a space nor a joiner: a text with it looks like the text without it. So do
+/// noncharacters, where they are not shown as a box.
 bool is_filler(char32_t code_point);
 
 }  // namespace meniscus

@@ -103,9 +103,9 @@ public:
         const auto self = std::move(self_);
         if (!upload_) return;
         // For a call that ended before its upload: nobody reads, and the session is free for the next stream.
-        // A read that fails before the call is known to be canceled looks as if nothing followed.
-        if (end_ == UploadEnd::answered && context_.IsCancelled()) end_ = UploadEnd::left;
-        session_->cancel_upload(upload_, end_);
+        // Whether the status was sent, gRPC knows only now: a connection's reads may fail before it is known to be
+        // broken, and then the call was finished as one after which nothing followed.
+        session_->cancel_upload(upload_, context_.IsCancelled() ? UploadEnd::vanished : UploadEnd::answered);
         call_log.write({.session = session_id_}, "stream from {} closed: {}", peer_, outcome_);
     }
 
@@ -386,7 +386,6 @@ private:
 
     void write_next() {
         if (canceled_) {
-            end_ = reading_ended_ ? UploadEnd::left : UploadEnd::vanished;
             finish(client_gone());
         } else if (refusal_) {
             finish_with(*refusal_);
@@ -462,7 +461,6 @@ private:
     bool reading_ended_ = false;
     bool writing_ = false;
     bool canceled_ = false;
-    UploadEnd end_ = UploadEnd::answered;
     bool finished_ = false;
 };
 

@@ -126,6 +126,7 @@ private:
             call_log.write({.session = session_id_}, "watcher from {} connected", peer_);
         // At once: the client knows from here on that it misses no mesh. With metadata, as a refusal has none.
         context_.AddInitialMetadata("x-session-id", session_id_);
+        if (is_snapshot) context_.AddInitialMetadata("x-session-instance", session_->instance());
         if (sends_meshes) announce(codec, context_);
         this->StartSendInitialMetadata();
     }

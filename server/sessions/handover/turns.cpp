@@ -11,9 +11,18 @@ std::optional<Turns::Turn> Turns::wait(const std::stop_token& stop, const std::s
     const std::uint64_t mine = asked_++;
     Line& line = line_of(name);
     line.waiting.push_back(mine);
-    changed_.wait(lock, stop, [&] { return !began_ && lines_.front().waiting.front() == mine; });
-    std::erase(line.waiting, mine);
+    const auto is_next = [&] { return lines_.front().waiting.front() == mine; };
+    while (!stop.stop_requested() && !(is_next() && is_over())) {
+        // Only the next one looks at the clock, and again where there is no room yet.
+        constexpr auto soon = std::chrono::milliseconds(50);
+        if (longest_ && is_next())
+            changed_.wait_until(lock, stop, std::max(*began_ + *longest_, Clock::now() + soon),
+                                [&] { return is_over(); });
+        else
+            changed_.wait(lock, stop, [&] { return is_next() && (longest_ || is_over()); });
+    }
     if (stop.stop_requested()) {
+        std::erase(line.waiting, mine);
         const bool has_the_turn = began_ && &line == &lines_.back();
         if (line.waiting.empty() && !has_the_turn) lines_.remove_if([&](const Line& each) { return &each == &line; });
         // The next one may have waited for this one alone.
@@ -21,10 +30,16 @@ std::optional<Turns::Turn> Turns::wait(const std::stop_token& stop, const std::s
         changed_.notify_all();
         return std::nullopt;
     }
+    if (began_) end_present();
+    std::erase(line.waiting, mine);
     began_ = Clock::now();
     holder_ = session;
     lines_.splice(lines_.end(), lines_, lines_.begin());
-    return std::optional<Turn>(std::in_place, *this);
+    const std::uint64_t number = ++number_;
+    lock.unlock();
+    // Whoever is next now waits for the end of this one.
+    if (longest_) changed_.notify_all();
+    return std::optional<Turn>(std::in_place, *this, number);
 }
 
 Turns::Line& Turns::line_of(const std::string& name) {
@@ -51,15 +66,20 @@ std::chrono::duration<double> Turns::taken() {
     return began_ ? taken_ + (Clock::now() - *began_) : taken_;
 }
 
-void Turns::end() {
+void Turns::end(std::uint64_t number) {
     {
         const std::lock_guard lock(mutex_);
-        taken_ += Clock::now() - *began_;
-        began_.reset();
-        holder_.clear();
-        if (lines_.back().waiting.empty()) lines_.pop_back();
+        // Otherwise it was over, and another one has begun.
+        if (number == number_) end_present();
     }
     changed_.notify_all();
+}
+
+void Turns::end_present() {
+    taken_ += Clock::now() - *began_;
+    began_.reset();
+    holder_.clear();
+    if (lines_.back().waiting.empty()) lines_.pop_back();
 }
 
 }  // namespace meniscus::server

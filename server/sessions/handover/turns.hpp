@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <list>
 #include <mutex>
 #include <optional>
@@ -15,23 +16,33 @@
 namespace meniscus::server {
 
 /// One turn at a time. Names take turns, and so do the sessions of each name: a name with many sessions has no more
-/// turns than one with a single session. A session asks for one turn per frame.
+/// turns than one with a single session. A session asks for one turn per frame. A turn that lasts for long is over once
+/// somebody waits: the next one begins, and both go on side by side.
 class Turns {
 public:
+    using Clock = std::chrono::steady_clock;
+
+    /// longest: after which a turn is over for those who wait; none: it ends with its Turn alone. have_room: whether
+    /// two may go on side by side; called with the lock held, asked again and again.
+    explicit Turns(
+        std::optional<Clock::duration> longest = std::nullopt, std::function<bool()> have_room = [] { return true; })
+        : longest_(longest), have_room_(std::move(have_room)) {}
+
     /// Ends when it is destroyed.
     class Turn {
     public:
-        explicit Turn(Turns& turns) : turns_(&turns) {}
+        Turn(Turns& turns, std::uint64_t number) : turns_(&turns), number_(number) {}
         ~Turn() {
-            if (turns_ != nullptr) turns_->end();
+            if (turns_ != nullptr) turns_->end(number_);
         }
-        Turn(Turn&& other) noexcept : turns_(std::exchange(other.turns_, nullptr)) {}
+        Turn(Turn&& other) noexcept : turns_(std::exchange(other.turns_, nullptr)), number_(other.number_) {}
         Turn(const Turn&) = delete;
         Turn& operator=(const Turn&) = delete;
         Turn& operator=(Turn&&) = delete;
 
     private:
         Turns* turns_;
+        std::uint64_t number_;
     };
 
     /// Waits for at most one turn of each other name, and for those of its own name that were asked for before. None if
@@ -42,12 +53,10 @@ public:
     std::string holder();
     /// The number of threads that wait.
     std::uint64_t waiting();
-    /// The time of all turns so far, the present one included.
+    /// The time of all turns so far, the present one included; of one that was over, until the next one began.
     std::chrono::duration<double> taken();
 
 private:
-    using Clock = std::chrono::steady_clock;
-
     /// The turns that wait under one name.
     struct Line {
         std::string name;
@@ -56,14 +65,20 @@ private:
 
     /// The name's, which may be new. With the lock held.
     Line& line_of(const std::string& name);
-    void end();
+    void end(std::uint64_t number);
+    // With the lock held.
+    bool is_over() const { return !began_ || (longest_ && Clock::now() - *began_ >= *longest_ && have_room_()); }
+    void end_present();
 
+    const std::optional<Clock::duration> longest_;
+    const std::function<bool()> have_room_;
     std::mutex mutex_;
     std::condition_variable_any changed_;
     std::uint64_t asked_ = 0;
     /// The lines of waiting names, the next one first. That with the present turn is last, and may be empty.
     std::list<Line> lines_;
     std::optional<Clock::time_point> began_;  ///< the present turn; none: there is none
+    std::uint64_t number_ = 0;                ///< of the turn that began last
     std::string holder_;                      ///< of the present turn
     Clock::duration taken_{};                 ///< by the turns that have ended
 };

@@ -28,9 +28,9 @@ enum class UploadPolicy {
 
 /// How a stream's call has ended.
 enum class UploadEnd : std::uint8_t {
-    answered,  ///< with a status that it was sent
-    left,      ///< canceled, or its connection broke, after its simulator had said that nothing follows
-    vanished,  ///< the same while more was to come
+    answered,  ///< with a status that its simulator was sent
+    vanished,  ///< canceled, or its connection broke, before that: a read that fails for it looks as if nothing
+               ///< followed
 };
 
 struct UploadOptions {

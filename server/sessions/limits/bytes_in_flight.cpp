@@ -9,8 +9,11 @@
 
 namespace meniscus::server {
 
-BytesInFlight::BytesInFlight(std::size_t limit, std::uint32_t sessions)
-    : limit_(limit), share_(sessions != 0 ? limit / 4 / sessions : 0), common_(limit - share_ * sessions) {}
+BytesInFlight::BytesInFlight(std::size_t limit, std::uint32_t sessions, std::function<Clock::time_point()> now)
+    : now_(std::move(now)),
+      limit_(limit),
+      share_(sessions != 0 ? limit / 4 / sessions : 0),
+      common_(limit - share_ * sessions) {}
 
 std::size_t BytesInFlight::waiting() const {
     const std::lock_guard lock(mutex_);
@@ -25,17 +28,79 @@ bool BytesInFlight::others_wait(const SessionInFlight& session) const {
     });
 }
 
-bool BytesInFlight::admit(FrameInFlight& frame) {
-    NameInFlight* const name = frame.session_->name.get();
+void BytesInFlight::look_again() {
+    Calls calls;
+    {
+        const std::lock_guard lock(mutex_);
+        calls = grant_waiting();
+    }
+    for (const auto& call : calls) call();
+}
+
+bool BytesInFlight::name_has_room(const FrameInFlight& frame) const {
+    const NameInFlight* const name = frame.session_->name.get();
     const std::size_t name_limit = name != nullptr ? name->limit.load() : 0;
-    if (name_limit != 0 && name->announced != 0 &&
-        (name->announced > name_limit || frame.announced_ > name_limit - name->announced))
-        return false;
+    return name_limit == 0 || name->announced == 0 ||
+           (name->announced <= name_limit && frame.announced_ <= name_limit - name->announced);
+}
+
+bool BytesInFlight::is_oversized(const FrameInFlight& frame) const {
+    return frame.announced_ > common_ + share_;
+}
+
+std::size_t BytesInFlight::own_part(const FrameInFlight& frame) const {
+    if (frame.admitted_) return frame.own_;
+    return is_oversized(frame) ? 0 : std::min(frame.announced_, share_ - std::min(share_, frame.session_->booked));
+}
+
+FrameInFlight* BytesInFlight::next() const {
+    const auto now = now_();
+    const auto found = std::ranges::find_if(frames_, [&](const FrameInFlight* frame) {
+        return frame->missing() != 0 && frame->is_due(now) && (frame->admitted_ || name_has_room(*frame)) &&
+               fits_beside_slow(*frame);
+    });
+    return found != frames_.end() ? *found : nullptr;
+}
+
+bool BytesInFlight::fits_beside(const FrameInFlight& next, const FrameInFlight& frame) const {
+    std::size_t bytes = frame.announced_;
+    std::size_t beyond = frame.announced_ - own_part(frame);
+    // What it takes from nobody.
+    if (beyond == 0 && !is_oversized(next)) return true;
+    for (const FrameInFlight* each : frames_) {
+        if (!each->admitted_ && each != &next) continue;
+        bytes += each->announced_;
+        beyond += each->announced_ - own_part(*each);
+    }
+    return have_room(bytes, beyond, is_oversized(next));
+}
+
+bool BytesInFlight::fits_beside_slow(const FrameInFlight& frame) const {
+    const auto now = now_();
+    std::size_t bytes = frame.announced_;
+    std::size_t beyond = frame.announced_ - own_part(frame);
+    for (const FrameInFlight* each : frames_) {
+        if (each == &frame || !each->admitted_ || each->arrived_ == each->announced_ || !each->is_slow(now)) continue;
+        bytes += each->announced_;
+        beyond += each->announced_ - each->own_;
+    }
+    return have_room(bytes, beyond, is_oversized(frame));
+}
+
+bool BytesInFlight::have_room(std::size_t bytes, std::size_t beyond, bool oversized) const {
+    return oversized ? bytes <= limit_ : beyond <= common_;
+}
+
+bool BytesInFlight::admit(FrameInFlight& frame) {
+    if (!name_has_room(frame)) return false;
+    NameInFlight* const name = frame.session_->name.get();
     std::size_t own = frame.announced_;
     if (limit_ != 0) {
-        frame.oversized_ = frame.announced_ > common_ + share_;
-        own = frame.oversized_ ? 0 : std::min(own, share_ - std::min(share_, frame.session_->booked));
+        frame.oversized_ = is_oversized(frame);
+        own = own_part(frame);
         if (own > limit_ - booked_) return false;
+        const FrameInFlight* const first = next();
+        if (first != nullptr && first != &frame && !fits_beside(*first, frame)) return false;
         // A frame that fits into its share is never in anybody's way.
         frame.own_ = own;
         frame.admitted_ = true;
@@ -109,13 +174,40 @@ void BytesInFlight::forget(FrameInFlight& frame) {
     }
     frame.admitted_ = frame.oversized_ = false;
     frame.announced_ = frame.arrived_ = frame.own_ = frame.taken_ = 0;
+    frame.waited_ = frame.sending_ = {};
 }
 
 BytesInFlight::Calls BytesInFlight::grant_waiting() {
     Calls calls;
-    for (FrameInFlight* frame : frames_)
-        if (frame->waiter_ && grant(*frame)) calls.push_back(std::exchange(frame->waiter_, nullptr));
+    const auto try_to_book = [&](FrameInFlight& frame) {
+        if (frame.waiter_ && grant(frame)) calls.push_back(frame.end_to_wait(now_()));
+    };
+    if (FrameInFlight* const first = next()) try_to_book(*first);
+    for (FrameInFlight* frame : frames_) try_to_book(*frame);
     return calls;
+}
+
+void FrameInFlight::begin_to_wait(std::function<void()> waiter, Clock::time_point now) {
+    waiter_ = std::move(waiter);
+    sending_ += now - std::exchange(since_, now);
+    if (waited_ >= BytesInFlight::patience && sending_ >= BytesInFlight::patience) waited_ = {};  // it was next
+}
+
+std::function<void()> FrameInFlight::end_to_wait(Clock::time_point now) {
+    const bool was_due = waited_ >= BytesInFlight::patience;
+    waited_ += now - std::exchange(since_, now);
+    if (!was_due && waited_ >= BytesInFlight::patience) sending_ = {};
+    return std::exchange(waiter_, nullptr);
+}
+
+bool FrameInFlight::is_due(Clock::time_point now) const {
+    const auto passed = now - since_;
+    return waiter_ ? waited_ + passed >= BytesInFlight::patience
+                   : waited_ >= BytesInFlight::patience && sending_ + passed < BytesInFlight::patience;
+}
+
+bool FrameInFlight::is_slow(Clock::time_point now) const {
+    return !is_due(now) && sending_ + (waiter_ ? Clock::duration{} : now - since_) >= BytesInFlight::patience;
 }
 
 FrameInFlight::FrameInFlight(FrameInFlight&& other) noexcept : all_(other.all_), session_(other.session_) {
@@ -128,6 +220,9 @@ FrameInFlight::FrameInFlight(FrameInFlight&& other) noexcept : all_(other.all_),
     own_ = std::exchange(other.own_, 0);
     taken_ = std::exchange(other.taken_, 0);
     waiter_ = std::exchange(other.waiter_, nullptr);
+    waited_ = std::exchange(other.waited_, {});
+    sending_ = std::exchange(other.sending_, {});
+    since_ = other.since_;
     std::ranges::replace(all_->frames_, &other, this);
 }
 
@@ -150,17 +245,27 @@ void FrameInFlight::announce(std::size_t bytes) {
     const std::lock_guard lock(all_->mutex_);
     announced_ = bytes;
     begun_ = true;
+    since_ = all_->now_();
     all_->frames_.push_back(this);
     all_->grant(*this);
 }
 
 bool FrameInFlight::book(std::size_t arrived, std::function<void()> booked) {
-    const std::lock_guard lock(all_->mutex_);
-    if (!begun_) return true;
-    arrived_ = arrived;
-    if (all_->grant(*this)) return true;
-    waiter_ = std::move(booked);
-    return false;
+    BytesInFlight::Calls calls;
+    {
+        const std::lock_guard lock(all_->mutex_);
+        if (!begun_) return true;
+        arrived_ = arrived;
+        const bool was_missing = missing() != 0;
+        if (!all_->grant(*this)) {
+            begin_to_wait(std::move(booked), all_->now_());
+            return false;
+        }
+        // It may have been the next one, and kept others from beginning.
+        if (was_missing && missing() == 0) calls = all_->grant_waiting();
+    }
+    for (const auto& call : calls) call();
+    return true;
 }
 
 void FrameInFlight::release() noexcept {

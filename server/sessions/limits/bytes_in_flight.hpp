@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -37,11 +38,22 @@ struct SessionInFlight {
 /// can never wait for each other. A frame of more than what is in common, and its session's share, is oversized: it
 /// takes nothing from its share, and the last part of it also what the others have not booked of theirs.
 ///
+/// So that small frames do not keep out a large one for ever, a frame that has waited for a second is next, the oldest
+/// of them first: until all its bytes are booked, no other frame begins but one for which there is room beside it and
+/// all that have begun. That cannot stop the frames that have begun, which come in by the order above, and once they
+/// are gone nothing is in the way of the next one. Whoever sends slowly gains nothing by it: a frame whose own bytes
+/// are on their way for a second is next no more, until it has waited for another second; and one for which there is no
+/// room beside such slow ones is not next before they are gone.
+///
 /// Thread-safe.
 class BytesInFlight {
 public:
-    /// limit: bytes, 0 for none. sessions: as many have a share; 0: none has one, as there may be any number.
-    explicit BytesInFlight(std::size_t limit = 0, std::uint32_t sessions = 0);
+    using Clock = std::chrono::steady_clock;
+
+    /// limit: bytes, 0 for none. sessions: as many have a share; 0: none has one, as there may be any number. now: the
+    /// clock, called with the lock held.
+    explicit BytesInFlight(std::size_t limit = 0, std::uint32_t sessions = 0,
+                           std::function<Clock::time_point()> now = Clock::now);
 
     /// Booked by now.
     std::size_t bytes() const noexcept { return booked_.load(std::memory_order_relaxed); }
@@ -52,20 +64,40 @@ public:
     std::size_t waiting() const;
     /// Whether frames of other sessions wait for bytes.
     bool others_wait(const SessionInFlight& session) const;
+    /// Books for frames that another one has kept from beginning, and does no longer, as time has passed. Call it every
+    /// second or so.
+    void look_again();
 
 private:
     friend class FrameInFlight;
     using Calls = std::vector<std::function<void()>>;
 
+    /// After which a frame is next, and for which it may be so while its own bytes are on their way.
+    static constexpr Clock::duration patience = std::chrono::seconds(1);
+
     // With the lock held.
     bool grant(FrameInFlight& frame);
     bool admit(FrameInFlight& frame);
+    bool name_has_room(const FrameInFlight& frame) const;
+    bool is_oversized(const FrameInFlight& frame) const;
+    /// Of its session's share, which it has or would have if it began now.
+    std::size_t own_part(const FrameInFlight& frame) const;
+    /// The frame that is next; may be none.
+    FrameInFlight* next() const;
+    /// Whether the next frame has its room if this one begins, too.
+    bool fits_beside(const FrameInFlight& next, const FrameInFlight& frame) const;
+    /// Whether the frame has room if those that come slowly stay.
+    bool fits_beside_slow(const FrameInFlight& frame) const;
+    /// Whether there is room for these at once. beyond: their shares. oversized: whether one of them may have the
+    /// others' shares.
+    bool have_room(std::size_t bytes, std::size_t beyond, bool oversized) const;
     /// Whether all frames that have begun can arrive whole, if this one has `more` bytes.
     bool is_safe(const FrameInFlight& frame, std::size_t more) const;
     void forget(FrameInFlight& frame);
     /// Books for waiting frames. Returns the calls for those whose bytes are booked by now, in their order.
     Calls grant_waiting();
 
+    const std::function<Clock::time_point()> now_;
     const std::size_t limit_;
     const std::size_t share_;   ///< of each session
     const std::size_t common_;  ///< what remains
@@ -100,7 +132,16 @@ public:
 private:
     friend class BytesInFlight;
 
+    using Clock = BytesInFlight::Clock;
+
     std::size_t missing() const noexcept { return admitted_ ? announced_ - own_ - taken_ : announced_; }
+    void begin_to_wait(std::function<void()> waiter, Clock::time_point now);
+    /// Returns the function to call.
+    std::function<void()> end_to_wait(Clock::time_point now);
+    /// Whether it has waited long enough to be next.
+    bool is_due(Clock::time_point now) const;
+    /// Whether its bytes are on their way for long.
+    bool is_slow(Clock::time_point now) const;
 
     const std::shared_ptr<BytesInFlight> all_;
     const std::shared_ptr<SessionInFlight> session_;
@@ -114,6 +155,9 @@ private:
     std::size_t own_ = 0;    ///< booked from the session's share
     std::size_t taken_ = 0;  ///< and beyond it
     std::function<void()> waiter_;
+    Clock::duration waited_{};   ///< for bytes, up to since_
+    Clock::duration sending_{};  ///< its simulator, up to since_; from when it was next, once it is
+    Clock::time_point since_;    ///< it waits, or does not
 };
 
 }  // namespace meniscus::server

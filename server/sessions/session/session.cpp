@@ -69,6 +69,13 @@ SessionState Session::state() const {
     return state;
 }
 
+std::string Session::instance() const {
+    using std::chrono::microseconds;
+    const auto created = std::chrono::duration_cast<microseconds>(created_at_.time_since_epoch());
+    const std::lock_guard lock(mutex_);
+    return fmt::format("{:x}.{}", created.count(), runs_);
+}
+
 std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::function<void()> wake,
                                              std::function<void()> drain,
                                              std::function<void(std::exception_ptr)> stop) {
@@ -87,6 +94,7 @@ std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::
         orphaned_ = false;
         awaited_for_ = {};
         set_upload(upload);
+        if (run_ != upload->run) ++runs_;
         run_ = upload->run;
         unanswered_.push_back(upload);
         last_upload_ = upload.get();
@@ -183,7 +191,8 @@ void Session::end_upload(std::shared_ptr<Upload> upload, std::exception_ptr erro
 void Session::cancel_upload(const std::shared_ptr<Upload>& upload, UploadEnd end) {
     {
         const std::lock_guard lock(mutex_);
-        if (end == UploadEnd::vanished && upload_ == upload) orphaned_ = true;
+        // Not only while it sends: it may have been taken for one that has ended.
+        if (end == UploadEnd::vanished && last_upload_ == upload.get()) orphaned_ = true;
         // One that looked as if it had ended well may have been broken off all the same.
         if (last_upload_ == upload.get() && !upload->canceled && (end != UploadEnd::answered || has_stream())) {
             without_stream_since_ = std::chrono::steady_clock::now();

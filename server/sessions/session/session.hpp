@@ -73,6 +73,9 @@ public:
     const std::string& name() const noexcept { return kind().description.name(); }
     std::chrono::system_clock::time_point created_at() const noexcept { return created_at_; }
     const Limits& limits() const noexcept { return context_.limits; }
+    /// Another one for each session, be it of the same id, and for each run that has begun: two meshes of equal run_id,
+    /// which simulators choose, and frame index may be different ones unless this is equal, too.
+    std::string instance() const;
     SessionState state() const;
 
     // Uploading. Frames go: request_input, submit or return_input, ..., end_upload.
@@ -183,6 +186,7 @@ private:
     std::uint64_t dropped_not_nth_ = 0;
     std::chrono::steady_clock::time_point last_used_ = std::chrono::steady_clock::now();
     std::shared_ptr<Run> run_;                         ///< of the stream opened last
+    std::uint64_t runs_ = 0;                           ///< that have begun
     std::shared_ptr<Upload> upload_;                   ///< the one that sends
     std::vector<std::shared_ptr<Upload>> unanswered_;  ///< and those whose last frames are still on their way
     bool orphaned_ = false;  ///< its simulator has vanished without a word, and nobody has resumed it

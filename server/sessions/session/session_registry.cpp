@@ -34,9 +34,14 @@ std::chrono::milliseconds idle_check_interval(const Limits& limits) {
     for (const auto time : {limits.idle_time, limits.orphan_time, limits.ephemeral_time, limits.idle_buffers_time,
                             limits.least_pace.time})
         if (time.count() != 0) shortest = std::min(shortest, time);
+    if (limits.bytes_in_flight != 0) shortest = std::min(shortest, 4 * std::chrono::milliseconds(1000));
     if (shortest == std::chrono::milliseconds::max()) return {};
     return std::clamp(shortest / 4, std::chrono::milliseconds(10), std::chrono::milliseconds(10'000));
 }
+
+/// For which a frame has the processors alone while others wait. Afterwards they have their turns beside it, and no
+/// frame is stopped that needs its time. Not on a GPU, whose memory few frames leave room in.
+constexpr std::chrono::seconds longest_turn{4};
 
 std::string place_name(const BackendOptions& backend) {
     return backend.backend == Backend::cuda ? fmt::format("GPU {}", backend.device) : "the CPU";
@@ -230,8 +235,13 @@ std::shared_ptr<SharedMemory> SessionRegistry::shared_memory(std::size_t limit) 
 
 SharedResources SessionRegistry::shared_on(const BackendOptions& place) {
     constexpr int cpu = -1;
-    auto& turns = turns_[place.backend == Backend::cuda ? place.device : cpu];
-    if (!turns) turns = std::make_shared<Turns>();
+    const bool is_gpu = place.backend == Backend::cuda;
+    auto& turns = turns_[is_gpu ? place.device : cpu];
+    // A frame beside another one has half of the memory for itself at least.
+    const auto have_room = [memory = memory_] {
+        return memory->limit() == 0 || memory->bytes() <= memory->limit() / 2;
+    };
+    if (!turns) turns = is_gpu ? std::make_shared<Turns>() : std::make_shared<Turns>(longest_turn, have_room);
     return {.workers = workers_,
             .metrics = metrics_,
             .turns = turns,
@@ -262,6 +272,7 @@ void SessionRegistry::end_idle(std::chrono::steady_clock::time_point now) {
         return release.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     });
     if (sessions_have_ended_.exchange(false) || released != 0) return_free_pages();
+    bytes_in_flight_->look_again();
     const bool memory_is_short = idle_buffers_->short_within(limits_.least_pace.time + std::chrono::minutes(1));
     for (const auto& session : list()) {
         const auto resting_since = session->resting_since();

@@ -75,6 +75,21 @@ TEST_F(Operators, SeeHealthAndLimits) {
     EXPECT_NE(result.out.find("sessions               16\n"), std::string::npos) << result.out;
 }
 
+TEST_F(Operators, AskForHealthAloneAndAreToldWhatAFullServerIs) {
+    const ProcessResult result = run({"info", "--health"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, "health                 serving\n");
+    server::ServerOptions full = options();
+    full.listen = "127.0.0.1:0";
+    full.limits.connections = 1;
+    const server::Server other(full);
+    const client::Client first(other.address());
+    const ProcessResult refused = run_process(MENISCUS_CLI, {"info", "--server", other.address(), "--health"});
+    EXPECT_EQ(refused.exit_code, 1) << "as when it shuts down";
+    EXPECT_NE(refused.err.find("a server that is full"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("/healthz"), std::string::npos) << refused.err;
+}
+
 TEST_F(Operators, ListSessionsForPeopleAndForPrograms) {
     const ProcessResult table = run({"sessions"});
     EXPECT_EQ(table.exit_code, 0) << table.err;

@@ -2,13 +2,12 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
-#include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "../attacks.hpp"
+#include "../crowds.hpp"
 #include "../target.hpp"
 #include "meniscus/client/client.hpp"
 #include "meniscus/error.hpp"
@@ -25,46 +24,6 @@ constexpr double frame_seconds = 10.0;            ///< --max-frame-seconds of th
 constexpr double least_seconds = 2.0;             ///< time that a frame may always take
 constexpr double times_of_an_evenly_spread = 20;  ///< limit over the time of an evenly spread frame
 
-using Positions = std::vector<float>;
-
-void add(Positions& positions, float x, float y, float z) {
-    for (const float p : {x, y, z}) positions.push_back(p);
-}
-
-Positions evenly_spread(int count, float apart = 2.0F) {
-    const int side = static_cast<int>(std::ceil(std::cbrt(count)));
-    Positions positions;
-    for (int i = 0; i < count; ++i)
-        add(positions, apart * static_cast<float>(i % side), apart * static_cast<float>(i / side % side),
-            apart * static_cast<float>(i / side / side));
-    return positions;
-}
-
-/// `number` clumps of `of` particles each, 50 radii apart; a particle lies up to `size` from its clump's middle on each
-/// axis.
-Positions clumps(int number, int of, float size) {
-    std::mt19937 random(11);
-    std::uniform_real_distribution<float> place(-size, size);
-    Positions positions;
-    for (int c = 0; c < number; ++c)
-        for (int i = 0; i < of; ++i)
-            add(positions, 50.0F * static_cast<float>(c % 16) + place(random),
-                50.0F * static_cast<float>(c / 16) + place(random), place(random));
-    return positions;
-}
-
-Positions together(Positions a, const Positions& b) {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-}
-
-struct Case {
-    std::string name;
-    Settings settings;
-    Positions positions;
-    std::vector<std::uint8_t> levels = {};  ///< none: all 0
-};
-
 /// As many particles of each level, at rest.
 Case evenly_spread_as(const Case& attack) {
     const auto large = static_cast<int>(std::ranges::count(attack.levels, 3));
@@ -75,15 +34,6 @@ Case evenly_spread_as(const Case& attack) {
         std::fill_n(even.levels.begin(), small, std::uint8_t{0});
     }
     return even;
-}
-
-Settings settings_of(Field field, double cell_size, Mode mode) {
-    Settings settings;
-    settings.particle_radius = 1.0;
-    settings.field = field;
-    settings.cell_size = cell_size;
-    settings.mode = mode;
-    return settings;
 }
 
 std::vector<Case> cases() {
@@ -109,15 +59,7 @@ std::vector<Case> cases() {
     }
     // A large particle is near 512 times as many places as a small one.
     for (const Field field : {Field::smooth, Field::color, Field::density})
-        for (const int number : {10, 109, 435}) {
-            Case mixed{
-                std::to_string(number) + " clumps of large particles among small ones, " + std::string(name_of(field)),
-                settings_of(field, 0.5, Mode::adaptive),
-                together(evenly_spread(megabyte / 2), clumps(number, megabyte / 2 / number, 8.0F))};
-            mixed.levels.assign(mixed.positions.size() / 3, 3);
-            std::fill_n(mixed.levels.begin(), megabyte / 2, std::uint8_t{0});
-            all.push_back(std::move(mixed));
-        }
+        for (const int number : {10, 109, 435}) all.push_back(clumps_among_small(field, number, megabyte / 2));
     Settings fine = settings_of(Field::color, 1.0 / 64.0, Mode::adaptive);
     fine.edge_points = Bisection{7};
     all.push_back({"a clump at the finest cells, bisected", fine, clumps(1, 4000, 0.0F)});

@@ -79,12 +79,14 @@ TEST(HttpServer, RefusesOtherMethodsAndBodiesAndWhatIsNotHttp) {
         return answer;
     };
     const HttpAnswer post =
-        refusal("POST /one HTTP/1.1\r\nContent-Length: 2000000\r\n\r\n" + std::string(100'000, 'x'));
+        refusal("POST /one HTTP/1.1\r\nHost: test\r\nContent-Length: 2000000\r\n\r\n" + std::string(100'000, 'x'));
     EXPECT_EQ(post.status, 405);
     EXPECT_NE(post.header.find("Allow: GET, HEAD\r\n"), std::string::npos) << post.header;
     EXPECT_NE(post.body.find("POST"), std::string::npos) << post.body;
-    EXPECT_EQ(refusal("GET /one HTTP/1.1\r\nContent-Length: 4\r\n\r\nbody").status, 413);
-    EXPECT_EQ(refusal("GET /one HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n").status, 413);
+    EXPECT_EQ(refusal("GET /one HTTP/1.1\r\nHost: test\r\nContent-Length: 4\r\n\r\nbody").status, 413);
+    EXPECT_EQ(refusal("GET /one HTTP/1.1\r\nHost: test\r\nTransfer-Encoding: chunked\r\n\r\n").status, 413);
+    EXPECT_EQ(refusal("GET /one HTTP/1.1\r\n\r\n").status, 400) << "it names no host";
+    EXPECT_EQ(refusal("GET /one HTTP/1.0\r\n\r\n").status, 200) << "which HTTP/1.0 does not know";
     EXPECT_EQ(refusal("PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n").status, 400);
     EXPECT_EQ(refusal(std::string("\0\x16\x03\x01 hello\r\n\r\n", 14)).status, 400);
 }
@@ -93,7 +95,8 @@ TEST(HttpServer, AnswersPipelinedRequestsInOrder) {
     const HttpServer server("127.0.0.1:0", router());
     HttpClient client(server.address());
     std::string requests;
-    for (int i = 0; i < 500; ++i) requests += i % 2 == 0 ? "GET /one HTTP/1.1\r\n\r\n" : "GET /two HTTP/1.1\r\n\r\n";
+    for (int i = 0; i < 500; ++i)
+        requests += i % 2 == 0 ? "GET /one HTTP/1.1\r\nHost: test\r\n\r\n" : "GET /two HTTP/1.1\r\nHost: test\r\n\r\n";
     ASSERT_TRUE(client.send(requests));
     for (int i = 0; i < 500; ++i) ASSERT_EQ(client.receive().body, i % 2 == 0 ? "1\n" : "22\n") << i;
 }
@@ -101,7 +104,7 @@ TEST(HttpServer, AnswersPipelinedRequestsInOrder) {
 TEST(HttpServer, RefusesAHeaderPastItsLimit) {
     const HttpServer server("127.0.0.1:0", router(), {}, impatient());
     const auto answer_to_header_of = [&](std::size_t bytes) {
-        const std::string start = "GET /one HTTP/1.1\r\nX: ";
+        const std::string start = "GET /one HTTP/1.1\r\nHost: test\r\nX: ";
         const std::string end = "\r\n\r\n";
         HttpClient client(server.address());
         client.send(start + std::string(bytes - start.size() - end.size(), 'x') + end);
@@ -120,7 +123,7 @@ TEST(HttpServer, CutsOffWhoSendsHalfARequestOrByteByByte) {
     half.send("GET /one HT");
     HttpClient silent(server.address());
     HttpClient slow(server.address());
-    slow.send("GET /one HTTP/1.1\r\nX: ");
+    slow.send("GET /one HTTP/1.1\r\nHost: test\r\nX: ");
     std::size_t sent = 0;
     while (slow.send("x") && sent < 900) {  // below the limit of the header
         ++sent;
@@ -136,10 +139,10 @@ TEST(HttpServer, CutsOffWhoSendsHalfARequestOrByteByByte) {
 TEST(HttpServer, CutsOffWhoDoesNotTakeTheAnswer) {
     const HttpServer server("127.0.0.1:0", router(), {}, impatient());
     HttpClient deaf(server.address());
-    deaf.send("GET /large HTTP/1.1\r\n\r\n");
+    deaf.send("GET /large HTTP/1.1\r\nHost: test\r\n\r\n");
     EXPECT_EQ(http_get(server.address(), "/one").status, 200);
     // Until the server has given up, which is when a connection no longer takes bytes.
-    while (deaf.send("GET /one HTTP/1.1\r\n\r\n")) ::usleep(1000);
+    while (deaf.send("GET /one HTTP/1.1\r\nHost: test\r\n\r\n")) ::usleep(1000);
     EXPECT_EQ(http_get(server.address(), "/one").status, 200);
 }
 
@@ -166,7 +169,7 @@ TEST(HttpServer, EndsWithConnectionsOpen) {
     HttpClient half(server->address());
     half.send("GET /one HT");
     HttpClient deaf(server->address());
-    deaf.send("GET /large HTTP/1.1\r\n\r\n");
+    deaf.send("GET /large HTTP/1.1\r\nHost: test\r\n\r\n");
     EXPECT_EQ(idle.get("/one").status, 200);
     server.reset();
     EXPECT_TRUE(idle.ended());

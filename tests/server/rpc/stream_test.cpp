@@ -171,6 +171,32 @@ TEST(Stream, CanBeLeftWithFramesInFlight) {
     EXPECT_EQ(running.client.session(id).id, id);
 }
 
+TEST(Stream, OfASimulatorThatVanishesLeavesNoSessionForLong) {
+    ServerOptions options = test_options();
+    options.limits.orphan_time = std::chrono::milliseconds(20);
+    options.limits.sessions = 64;
+    RunningServer running(options);
+    for (const bool in_mid_frame : {false, true})
+        for (int time = 0; time < 20; ++time) {
+            RawStream stream(running.server.address(), running.session());
+            stream.call->WaitForInitialMetadata();
+            stream.send_begin(0, 10);
+            stream.send_chunk(12);
+            if (!in_mid_frame) {
+                stream.send_chunk(108);
+                stream.send_end();
+            }
+            // At a different moment each time: before, while and after the frame is there.
+            std::this_thread::sleep_for(std::chrono::microseconds(100 * time));
+            stream.context.TryCancel();
+            stream.finish();
+        }
+    const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    std::size_t left = 40;
+    while (left != 0 && std::chrono::steady_clock::now() < give_up) left = running.client.sessions().size();
+    EXPECT_EQ(left, 0U);
+}
+
 TEST(Stream, EndsWithItsSession) {
     RunningServer running;
     const std::string id = running.session();

@@ -83,7 +83,7 @@ TEST_F(EphemeralSession, IsKeptForAsLongAsTheSimulatorOfABrokenStreamTriesToCome
     EXPECT_TRUE(is_there_after(hours(5) - a_little));
     const auto again = open(*session, hours(5));
     EXPECT_TRUE(is_there_after(10 * orphaned));
-    session->cancel_upload(again, UploadEnd::left);
+    session->cancel_upload(again, UploadEnd::vanished);
     EXPECT_TRUE(is_there_after(hours(5) - a_little));
     EXPECT_FALSE(is_there_after(hours(5)));
 }
@@ -93,7 +93,7 @@ TEST_F(EphemeralSession, IsKeptForASimulatorWhoseBrokenStreamLookedAsIfItHadEnde
     const auto upload = open(*session, hours(5));
     session->end_upload(upload, nullptr);
     wait_for_end(*session);
-    session->cancel_upload(upload, UploadEnd::left);
+    session->cancel_upload(upload, UploadEnd::vanished);
     EXPECT_TRUE(is_there_after(hours(5) - a_little));
     EXPECT_FALSE(is_there_after(hours(5)));
 }

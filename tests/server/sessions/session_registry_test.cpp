@@ -284,6 +284,52 @@ TEST(OrphanedRegistry, ForgetsASessionWhoseSimulatorVanishedUnlessItIsWatchedOrR
     EXPECT_FALSE(ended->ended()) << "that one said goodbye";
 }
 
+TEST(OrphanedRegistry, ForgetsASessionWhoseBrokenStreamLookedFirstAsIfItHadEnded) {
+    using Clock = std::chrono::steady_clock;
+    constexpr auto limit = std::chrono::minutes(2);
+    SessionRegistry registry{Limits{.orphan_time = limit}, BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
+    const auto is_left = [&](Session& session) {
+        registry.end_idle(Clock::now() + limit + std::chrono::minutes(1));
+        return !session.ended();
+    };
+    const auto open = [](Session& session) {
+        return session.open_upload(
+            {.run_id = 7}, [] {}, [] {});
+    };
+    const auto wait_for_end = [](Session& session) {
+        while (!session.without_stream(Clock::now())) std::this_thread::yield();
+    };
+    const auto broken = registry.create(first_id, test::settings()).session;
+    const auto upload = open(*broken);
+    // Its read fails, so that nothing seems to follow; all is answered; then the call proves to be broken.
+    broken->end_upload(upload, nullptr);
+    wait_for_end(*broken);
+    EXPECT_TRUE(is_left(*broken)) << "as if it had said goodbye";
+    broken->cancel_upload(upload, UploadEnd::vanished);
+    wait_for_end(*broken);
+    EXPECT_FALSE(is_left(*broken));
+
+    const auto resumed = registry.create(first_id, test::settings()).session;
+    const auto earlier = open(*resumed);
+    const auto later = open(*resumed);
+    resumed->end_upload(later, nullptr);
+    resumed->cancel_upload(later, UploadEnd::answered);
+    resumed->cancel_upload(earlier, UploadEnd::vanished);
+    wait_for_end(*resumed);
+    EXPECT_TRUE(is_left(*resumed)) << "its simulator came back, and ended well";
+}
+
+TEST(OrphanedRegistry, ForgetsASessionWhoseSimulatorLeftBeforeItsLastAnswers) {
+    constexpr auto limit = std::chrono::minutes(2);
+    SessionRegistry registry{Limits{.orphan_time = limit}, BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
+    const auto session = registry.create(first_id, test::settings()).session;
+    test::Simulator simulator(*session, {.run_id = 7});
+    simulator.send(0, test::wave(4, 0.0));
+    session->end_upload(simulator.upload, nullptr);
+    session->cancel_upload(simulator.upload, UploadEnd::vanished);
+    while (!session->ended()) registry.end_idle(std::chrono::steady_clock::now() + 2 * limit);
+}
+
 TEST_F(Registry, RefusesSettingsOutOfRange) {
     EXPECT_THROW(registry.create(first_id, Settings{}), InvalidInput);
     EXPECT_TRUE(registry.list().empty());

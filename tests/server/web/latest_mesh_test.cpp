@@ -240,6 +240,38 @@ TEST_F(LatestMeshOnAServer, IsSentAgainOnlyWhenItIsAnother) {
     EXPECT_NE(value_of(other, "ETag"), tag);
 }
 
+/// A frame 0 of run 7, as a client that names its runs by itself may send it.
+void play_run(const std::string& address, const std::string& id, std::uint64_t run, const Particles& particles) {
+    RawStream stream(address, id, false);
+    v1::StreamRequest request;
+    request.mutable_open()->set_session_id(id);
+    request.mutable_open()->set_run_id(run);
+    stream.call->Write(request);
+    stream.send_begin(0, particles.positions.size() / 3);
+    const auto* const bytes = reinterpret_cast<const char*>(particles.positions.data());
+    stream.send_data(std::string(bytes, particles.positions.size() * sizeof(float)));
+    stream.send_end();
+    stream.call->WritesDone();
+    const grpc::Status status = stream.finish();
+    EXPECT_TRUE(status.ok()) << status.error_message();
+}
+
+TEST_F(LatestMeshOnAServer, IsAnotherInASessionThatTookTheIdOfOneWithTheSameRunAndFrame) {
+    play_run(running.server.address(), id, 7, wave(6, 0.0));
+    const std::string tag = value_of(get(), "ETag");
+    EXPECT_EQ(get("", {{"If-None-Match", tag}}).status, 304);
+    running.client.delete_session(id);
+    running.client.create_session(id, settings());
+    play_run(running.server.address(), id, 7, wave(6, 1.0));
+    const HttpAnswer other = get("", {{"If-None-Match", tag}});
+    EXPECT_EQ(other.status, 200);
+    EXPECT_NE(value_of(other, "ETag"), tag);
+    const std::string later = value_of(other, "ETag");
+    play_run(running.server.address(), id, 8, wave(6, 0.5));
+    play_run(running.server.address(), id, 7, wave(6, 0.0));
+    EXPECT_EQ(get("", {{"If-None-Match", later}}).status, 200) << "a run of that number has begun anew";
+}
+
 TEST_F(LatestMeshOnAServer, IsNoneBeforeTheFirstFrameAndAFileWithoutASurfaceIsOne) {
     const HttpAnswer none = get();
     EXPECT_EQ(none.status, 404);

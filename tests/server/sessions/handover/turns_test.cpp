@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <optional>
+#include <random>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -131,6 +135,89 @@ TEST(Turns, AddUpToTheTimeThatTheyTook) {
     EXPECT_EQ(turns.taken(), ended) << "nobody has a turn";
     { const auto turn = turns.wait({}, "ada"); }
     EXPECT_GT(turns.taken(), ended);
+}
+
+TEST(LongTurns, AreOverForThoseWhoWaitAndEndOnTheirOwnLater) {
+    Turns turns(Turns::Clock::duration::zero());
+    std::optional<Turns::Turn> first = turns.wait({}, "ada", "1");
+    std::optional<Turns::Turn> second = turns.wait({}, "ben", "2");
+    EXPECT_EQ(turns.holder(), "2");
+    std::optional<Turns::Turn> third = turns.wait({}, "ada", "3");
+    EXPECT_EQ(turns.holder(), "3") << "also for another session of its name";
+    first.reset();
+    second.reset();
+    EXPECT_EQ(turns.holder(), "3") << "the end of one that was over ends no other";
+    third.reset();
+    EXPECT_EQ(turns.holder(), "");
+    EXPECT_TRUE(turns.wait({}, "eve"));
+}
+
+TEST(LongTurns, LastForAsLongAsTheyMay) {
+    constexpr auto longest = std::chrono::milliseconds(20);
+    Turns turns(longest);
+    const auto began = Turns::Clock::now();
+    std::vector<Turns::Clock::duration> begun(3);
+    const auto held = turns.wait({}, "ada");
+    std::vector<std::thread> threads;
+    std::vector<std::optional<Turns::Turn>> kept(3);
+    for (std::size_t i = 0; i < 3; ++i)
+        threads.emplace_back([&, i] {
+            kept[i].emplace(*turns.wait({}, std::to_string(i)));
+            begun[i] = Turns::Clock::now() - began;
+        });
+    for (std::thread& each : threads) each.join();
+    std::ranges::sort(begun);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_GE(begun[i], (i + 1) * longest) << i;
+}
+
+TEST(LongTurns, AreOverForWhoComesNextWhereTheOneInFrontGivesUp) {
+    Turns turns(std::chrono::milliseconds(20));
+    const auto held = turns.wait({}, "ada");
+    std::stop_source leaving;
+    std::thread left([&] { static_cast<void>(turns.wait(leaving.get_token(), "eve")); });
+    while (turns.waiting() != 1) std::this_thread::yield();
+    std::thread next([&] { EXPECT_TRUE(turns.wait({}, "ben")); });
+    leaving.request_stop();
+    left.join();
+    next.join();
+    EXPECT_EQ(turns.waiting(), 0U);
+}
+
+TEST(LongTurns, AreOverOnlyWhereThereIsRoomForTwo) {
+    std::atomic<bool> have_room{false};
+    Turns turns(Turns::Clock::duration::zero(), [&] { return have_room.load(); });
+    const auto held = turns.wait({}, "ada", "1");
+    std::thread next([&] {
+        const auto turn = turns.wait({}, "ben", "2");
+        EXPECT_TRUE(have_room);
+    });
+    while (turns.waiting() != 1) std::this_thread::yield();
+    EXPECT_EQ(turns.holder(), "1");
+    have_room = true;
+    next.join();
+}
+
+/// Many who ask again and again, and keep some of their turns for longer than they may: each has all of its turns.
+TEST(LongTurns, GoRoundAmongMany) {
+    Turns turns(std::chrono::microseconds(50));
+    std::atomic<int> had{0};
+    std::vector<std::thread> threads;
+    for (unsigned asker = 0; asker < 6; ++asker)
+        threads.emplace_back([&, asker] {
+            std::mt19937 random(asker);
+            for (int round = 0; round < 200; ++round) {
+                std::stop_source stop;
+                if (random() % 8 == 0) stop.request_stop();
+                const auto turn = turns.wait(stop.get_token(), std::to_string(asker / 2));
+                EXPECT_EQ(turn.has_value(), !stop.stop_requested());
+                ++had;
+                if (random() % 4 == 0) std::this_thread::sleep_for(std::chrono::microseconds(random() % 200));
+            }
+        });
+    for (std::thread& each : threads) each.join();
+    EXPECT_EQ(had, 6 * 200);
+    EXPECT_EQ(turns.waiting(), 0U);
+    EXPECT_EQ(turns.holder(), "");
 }
 
 TEST(Turns, AreGivenUpByWhoStopsAndGoToTheNext) {
