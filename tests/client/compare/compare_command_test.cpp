@@ -120,7 +120,7 @@ TEST_F(CompareCommand, RefusesBadInputInOneLine) {
             expect_refused({good, good, "--particle-radius", "1", flag, size}, flag);
     expect_refused({good, good, "--cell-size", "0.5"}, "--particle-radius");
     expect_refused({"-", "-", "--input-format", "obj"}, "standard input holds one mesh");
-    expect_refused({"-", good}, "--input-format: ply, obj, bricks, vtk, vtp or npz");
+    expect_refused({"-", good}, "--input-format: ply, obj, bricks, vtk, vtp, vtu or npz");
     expect_refused({good, good, "--json", (directory_ / "none").string() + "/figures.json"}, "none");
 }
 
