@@ -1,5 +1,6 @@
 // Draws meshes small, with the viewer's own picture, on a canvas that nobody sees.
 import type { Shown } from '../bricks/brick_store';
+import { joinNormals } from '../bricks/joined_normals';
 import type { DecodePool } from '../decode/decode_pool';
 import type { Server } from '../rpc/server';
 import type { Theme } from '../view/environment';
@@ -54,7 +55,7 @@ export class ThumbnailPainter {
           [key, { encoded, decoded: await this.pool.decode(encoded, frame.offsetBits) }] as const,
       ),
     );
-    return { frame, bricks: new Map(bricks) };
+    return { frame, bricks: joinNormals(new Map(bricks), new Map(), frame.offsetBits) };
   }
 
   private start(): Viewer {
