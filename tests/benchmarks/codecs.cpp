@@ -1,11 +1,14 @@
 // meniscus-bench codecs: bytes and processor time of the lattice codec, against Draco on the same bricks.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <numbers>
 
 #include "benchmarks.hpp"
 #include "formats/particles/particle_file.hpp"
@@ -13,6 +16,7 @@
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/mesh_hash.hpp"
+#include "meniscus/mesh_normals.hpp"
 #include "meniscus/reconstructor.hpp"
 #include "report.hpp"
 #include "warm_runs.hpp"
@@ -27,6 +31,7 @@ struct CodecOptions {
     std::vector<int> normal_bits{0, 8};
     unsigned rounds = 9;
     bool sections = false;
+    bool receiver_normals = false;
     std::string out = "tests/benchmarks/results";
 };
 
@@ -146,6 +151,33 @@ void print_sections(const Mesh& mesh) {
     std::cout << std::defaultfloat << std::endl;
 }
 
+/// Of --normals-by receiver: how far its normals are from those of the field, what they save, and what they take.
+void print_receiver_normals(const Mesh& mesh, unsigned rounds) {
+    Mesh own = mesh;
+    std::vector<double> seconds;
+    for (unsigned round = 0; round < rounds; ++round) seconds.push_back(seconds_of([&] { compute_normals(own); }));
+    std::vector<double> degrees;
+    for (std::size_t v = 0; v < own.normals.size(); ++v) {
+        const auto& [ax, ay, az] = mesh.normals[v];
+        const auto& [bx, by, bz] = own.normals[v];
+        const double cosine = double{ax} * bx + double{ay} * by + double{az} * bz;
+        const double sine = std::hypot(double{ay} * bz - double{az} * by, double{az} * bx - double{ax} * bz,
+                                       double{ax} * by - double{ay} * bx);
+        degrees.push_back(std::atan2(sine, cosine) * 180.0 / std::numbers::pi);
+    }
+    std::ranges::sort(degrees);
+    const auto triangles = static_cast<double>(mesh.triangles.size());
+    const auto bits = [&](int normal_bits) {
+        CodecRun run(Codec::lattice_entropy, normal_bits);
+        run.encode(mesh);
+        return 8.0 * static_cast<double>(run.bytes()) / triangles;
+    };
+    std::cout << "  the receiver's normals: " << std::fixed << std::setprecision(2) << degrees[degrees.size() / 2]
+              << " degrees off (median), " << degrees[degrees.size() * 99 / 100] << " (99 %); entropy " << bits(8)
+              << " to " << bits(0) << " bits a triangle; " << std::setprecision(1) << 1e9 * median(seconds) / triangles
+              << " ns a triangle" << std::defaultfloat << std::endl;
+}
+
 void run_codecs(const CodecOptions& options) {
     std::cout
         << "frame               mode     cell  normals  codec     bits/tri.   encode ns       x   decode ns       x\n";
@@ -177,6 +209,7 @@ void run_codecs(const CodecOptions& options) {
                         rows.push_back(row);
                     }
                 if (options.sections) print_sections(mesh);
+                if (options.receiver_normals) print_receiver_normals(mesh, options.rounds);
             }
     }
     nlohmann::ordered_json summary;
@@ -199,6 +232,8 @@ void add_codecs(CLI::App& app) {
         ->check(CLI::Range(1U, 1000U))
         ->capture_default_str();
     command.add_flag("--sections", options->sections, "Print the bits of each of the entropy profile's tables, too");
+    command.add_flag("--receiver-normals", options->receiver_normals,
+                     "Print how far normals that a receiver computes are from the field's, what they save and take");
     command.add_option("--out", options->out, "Folder for the results")->capture_default_str();
     command.callback([options] { run_codecs(*options); });
 }

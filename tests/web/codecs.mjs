@@ -33,7 +33,7 @@ function hasAsked(answer, ...codecs) {
     .includes(Buffer.from([(5 << 3) | 2, codecs.length, ...codecs]));
 }
 
-/** The largest difference of two pictures in a channel of a pixel, and how many pixels differ. */
+/** The largest difference of two pictures in a channel of a pixel, its mean over all pixels, and how many pixels differ. */
 async function difference(a, b) {
   const page = await open(undefined, small);
   return page.evaluate(
@@ -49,13 +49,15 @@ async function difference(a, b) {
         }),
       );
       let most = 0;
+      let sum = 0;
       let pixels = 0;
       for (let i = 0; i < one.length; i += 4) {
         const here = Math.max(...[0, 1, 2].map((channel) => Math.abs(one[i + channel] - other[i + channel])));
         most = Math.max(most, here);
+        sum += here;
         if (here > 0) ++pixels;
       }
-      return { most, pixels };
+      return { most, mean: (4 * sum) / one.length, pixels };
     },
     [a, b].map((png) => png.toString('base64')),
   );
@@ -88,6 +90,26 @@ describe('codecs', { skip: missing || without }, () => {
         rmSync(folder, { recursive: true });
       }
     });
+
+  it('need not bring normals: with those of the viewer the picture is nearly the same', async () => {
+    const server = await startServer();
+    const { file } = await recordedFile();
+    const replay = startUploader(server, ['replay', file, '--speed', 'max', '--to', '31', '--keep-session']);
+    await replay.finished();
+    const sent = await picture(server, '', `session=${replay.session}`);
+    const own = await picture(server, '&normals-by=receiver', `session=${replay.session}`);
+    assert.ok(
+      own.answer
+        .request()
+        .postDataBuffer()
+        .includes(Buffer.from([2 << 3, 0])),
+    );
+    assert.deepEqual(own.drawn, sent.drawn);
+    const { mean, pixels } = await difference(sent.png, own.png);
+    console.log(`normals of the viewer: ${pixels} pixels differ, all by ${mean} in the mean`);
+    assert.ok(pixels > 0);
+    assert.ok(mean < 1);
+  });
 
   it('are chosen by the address, and else for speed on the machine of the server', async () => {
     const server = await startServer();

@@ -11,6 +11,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/commands/examples.hpp"
 #include "cli/options/named_option.hpp"
+#include "cli/options/normals_by.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/seconds_option.hpp"
 #include "cli/options/server_flags.hpp"
@@ -52,6 +53,7 @@ std::optional<client::ReceivedFrame> next_frame(client::Watcher& watcher, const 
 }
 
 void watch(const WatchOptions& options) {
+    check_normals_by(options.flags.options.normals_by, options.flags.normal_bits, options.format == MeshFormat::bricks);
     client::Client client = options.server.connect();
     const std::string id = session_id_of(client, options.session);
     client::SessionInfo session;

@@ -7,6 +7,7 @@
 #include "cli/options/attribute_bits.hpp"
 #include "cli/options/codec_option.hpp"
 #include "cli/options/normal_bits.hpp"
+#include "cli/options/normals_by.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/seconds_option.hpp"
 #include "meniscus/error.hpp"
@@ -44,7 +45,8 @@ std::vector<AttributeWish> requests_for(const std::vector<std::string>& names, i
 
 void WatchFlags::add_to(CLI::App& command) {
     const OptionGroup group(command, "What is sent");
-    add_normal_bits(command, options.normal_bits, "")->capture_default_str();
+    add_normal_bits(command, normal_bits, "")->default_str(std::to_string(options.normal_bits));
+    add_normals_by(command, options.normals_by);
     command
         .add_option("--attribute", attributes,
                     "Attribute of the session that the meshes carry, once for each; all, or none of them")
@@ -78,6 +80,7 @@ void WatchFlags::add_to(CLI::App& command) {
 
 client::WatchOptions WatchFlags::build(const Settings& settings) const {
     client::WatchOptions out = options;
+    out.normal_bits = normal_bits.value_or(out.normal_bits);
     if (!region.empty()) out.region = Box{{region[0], region[1], region[2]}, {region[3], region[4], region[5]}};
     if (!viewpoint.empty()) out.viewpoint = {viewpoint[0], viewpoint[1], viewpoint[2]};
     out.attributes = requests_for(attributes, attribute_bits, settings);

@@ -1,6 +1,7 @@
 // The flags that become a watcher's options.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace meniscus::cli {
 
 struct WatchFlags {
     client::WatchOptions options;                ///< numbers are parsed into it; complete only after build()
+    std::optional<int> normal_bits;              ///< none: the options' own
     std::vector<double> region;                  ///< empty, or x0 y0 z0 x1 y1 z1
     std::vector<double> viewpoint;               ///< empty, or x y z
     std::vector<std::string> attributes{"all"};  ///< names, or "all", or "none"

@@ -4,11 +4,15 @@
 
 #include <utility>
 
+#include "meniscus/mesh_normals.hpp"
+
 namespace meniscus::cli {
 
-LocalSurfaces::LocalSurfaces(const Settings& settings, const BackendOptions& options, std::optional<int> normal_bits,
-                             int attribute_bits, Codec codec, bool only_one, Handler handler)
+LocalSurfaces::LocalSurfaces(const Settings& settings, const BackendOptions& options, client::NormalsBy normals_by,
+                             std::optional<int> normal_bits, int attribute_bits, Codec codec, bool only_one,
+                             Handler handler)
     : reconstructor_(settings, options),
+      normals_by_(normals_by),
       normal_bits_(normal_bits),
       attributes_{{.name = {}, .bits = attribute_bits}},
       codec_(codec),
@@ -27,6 +31,7 @@ void LocalSurfaces::submit(const ParticleFrame& frame, double simulation_time) {
     client::FrameStatistics statistics;
     static_cast<Statistics&>(statistics) = reconstructor_.statistics();
     CodingOptions coding{.codec = codec_};
+    if (normals_by_ == client::NormalsBy::receiver) compute_normals(mesh_);
     if (normal_bits_) {
         round_normals(mesh_, *normal_bits_);
         coding.normal_bits = *normal_bits_;

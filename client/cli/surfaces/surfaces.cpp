@@ -9,6 +9,7 @@
 #include "cli/options/codec_option.hpp"
 #include "cli/options/named_option.hpp"
 #include "cli/options/normal_bits.hpp"
+#include "cli/options/normals_by.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/policy_options.hpp"
 #include "cli/options/seconds_option.hpp"
@@ -85,6 +86,7 @@ void SurfacesOptions::add_to(CLI::App& command) {
     {
         const OptionGroup surface(command, surface_heading);
         add_normal_bits(command, normal_bits, " (default: 8 from a server, unrounded in this process)");
+        add_normals_by(command, stream.normals_by);
         add_attribute_bits(command, attribute_bits);
         add_codec(command, codec, "packed from a server on this machine, entropy from others and in files of bricks");
     }
@@ -98,6 +100,7 @@ std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfac
     if (!settings.normals && normal_bits.value_or(0) != 0)
         throw InvalidInput("--normal-bits " + std::to_string(*normal_bits) +
                            " is of normals, and --no-normals leaves them out: give one of the two");
+    check_normals_by(stream.normals_by, normal_bits, bricks);
     if (server.address.empty()) {
         if (codec && !bricks)
             throw InvalidInput(
@@ -105,8 +108,8 @@ std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfac
         const Codec of_files = codec.value_or(Codec::lattice_entropy);
         BackendOptions here = backend;
         here.keep_lattice = bricks && needs_lattice(of_files);
-        return std::make_unique<LocalSurfaces>(settings, here, normal_bits, attribute_bits, of_files, only_one,
-                                               std::move(handler));
+        return std::make_unique<LocalSurfaces>(settings, here, stream.normals_by, normal_bits, attribute_bits, of_files,
+                                               only_one, std::move(handler));
     }
     client::StreamOptions options = stream;
     if (normal_bits) options.normal_bits = *normal_bits;

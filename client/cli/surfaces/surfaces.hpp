@@ -71,8 +71,8 @@ public:
 /// The flag --backend: the backend of this process.
 CLI::Option* add_backend_option(CLI::App& command, Backend& backend);
 
-/// The flags --local, --backend, --threads, --normal-bits, --attribute-bits and --codec, and those of a server, a
-/// session and a stream to it.
+/// The flags --local, --backend, --threads, --normal-bits, --normals-by, --attribute-bits and --codec, and those of a
+/// server, a session and a stream to it.
 struct SurfacesOptions {
     bool local = false;
     ServerFlags server;              ///< no address: this process
@@ -81,13 +81,13 @@ struct SurfacesOptions {
     int attribute_bits = 0;          ///< of float32 attributes; 0: exact
     std::optional<Codec> codec;      ///< none: the stream's default from a server, entropy in files of bricks
     SessionFlags session;            ///< on the server
-    client::StreamOptions stream;    ///< to it
+    client::StreamOptions stream;    ///< to it; normals_by counts in this process, too
     bool bricks = false;             ///< no flag: whether surfaces are written as files of bricks
     bool only_one = false;           ///< no flag: whether a single frame is submitted, and its memory can go at once
 
     void add_to(CLI::App& command);
     /// The handler may be called from another thread, one call at a time. Throws InvalidInput for bits of normals that
-    /// the settings leave out, and for a codec where nothing is encoded.
+    /// the settings leave out or a receiver makes, and for a codec where nothing is encoded.
     std::unique_ptr<Surfaces> open(const Settings& settings, Surfaces::Handler handler) const;
 };
 

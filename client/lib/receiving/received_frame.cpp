@@ -1,6 +1,7 @@
 #include <vector>
 
 #include "meniscus/client/client.hpp"
+#include "meniscus/mesh_normals.hpp"
 
 namespace meniscus::client {
 
@@ -9,6 +10,7 @@ Mesh ReceivedFrame::mesh() const {
     decoded.reserve(bricks.size());
     for (const auto& brick : bricks) decoded.push_back(decode_brick(*brick, offset_bits, coded_attributes));
     Mesh mesh = weld_bricks(decoded, cell_size, offset_bits);
+    if (normals_by == NormalsBy::receiver) compute_normals(mesh);
     if (bricks.empty())
         for (const CodedAttribute& attribute : coded_attributes)
             mesh.attributes.push_back({attribute.name, attribute.type, attribute.components, {}});

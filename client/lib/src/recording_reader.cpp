@@ -8,7 +8,7 @@ namespace meniscus::client {
 
 RecordingReader::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& session_id, std::uint32_t number,
                             const ReadOptions& options)
-    : connection_(std::move(connection)) {
+    : connection_(std::move(connection)), normals_by_(options.normals_by) {
     v1::ReadRecordingRequest request;
     request.set_session_id(session_id);
     request.set_number(number);
@@ -41,7 +41,10 @@ std::optional<ReceivedFrame> RecordingReader::Impl::receive() {
     if (ended_) return std::nullopt;
     v1::WatchResponse response;
     while (!canceled_ && reader_->Read(&response))
-        if (auto frame = receiver_.take(response)) return frame;
+        if (auto frame = receiver_.take(response)) {
+            frame->normals_by = normals_by_;
+            return frame;
+        }
     if (canceled_) return std::nullopt;
     ended_ = true;
     require_ok(reader_->Finish(), connection_->address);

@@ -38,6 +38,7 @@ private:
     std::optional<ReceivedFrame> receive();
 
     const std::shared_ptr<Connection> connection_;
+    const NormalsBy normals_by_;
     grpc::ClientContext context_;
     std::unique_ptr<grpc::ClientReader<v1::WatchResponse>> reader_;
     FrameReceiver receiver_{true};

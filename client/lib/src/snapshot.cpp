@@ -87,7 +87,7 @@ std::optional<ReceivedFrame> take_snapshot(const Connection& connection, const s
     connection.add_metadata(context, session_id);
     v1::SnapshotRequest request;
     request.set_session_id(session_id);
-    request.set_normal_bits(static_cast<std::uint32_t>(options.normal_bits));
+    request.set_normal_bits(static_cast<std::uint32_t>(asked_normal_bits(options.normals_by, options.normal_bits)));
     *request.mutable_attributes() = conversion::to_wire(std::span(options.attributes));
     if (options.position_bits) request.set_position_bits(static_cast<std::uint32_t>(*options.position_bits));
     request.set_max_level(static_cast<std::uint32_t>(options.max_level));
@@ -114,6 +114,7 @@ std::optional<ReceivedFrame> take_snapshot(const Connection& connection, const s
     }
     require_ok(silence.of(call->Finish()), connection.address);
     receiver.end_of_stream();
+    if (frame) frame->normals_by = options.normals_by;
     return frame;
 }
 

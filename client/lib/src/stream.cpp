@@ -57,7 +57,7 @@ v1::StreamOpen open_message(const std::string& session_id, const StreamOptions& 
     v1::StreamOpen open;
     open.set_session_id(session_id);
     open.set_receive_meshes(options.receive_meshes);
-    open.set_normal_bits(static_cast<std::uint32_t>(options.normal_bits));
+    open.set_normal_bits(static_cast<std::uint32_t>(asked_normal_bits(options.normals_by, options.normal_bits)));
     open.set_policy(to_wire(options.policy));
     open.set_nth(options.nth);
     open.set_with_spray(options.spray);
@@ -346,6 +346,7 @@ void Stream::Impl::take(ReceivedFrame frame) {
     const std::lock_guard lock(mutex_);
     if (!settle(frame.index)) return;
     frame.dropped = std::exchange(dropped_since_, {});
+    frame.normals_by = options_.normals_by;
     waiting_.push_back(std::move(frame));
     changed_.notify_all();
 }

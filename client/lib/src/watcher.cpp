@@ -13,7 +13,7 @@ namespace {
 v1::WatchRequest request_of(const std::string& session_id, const WatchOptions& options) {
     v1::WatchRequest request;
     request.set_session_id(session_id);
-    request.set_normal_bits(static_cast<std::uint32_t>(options.normal_bits));
+    request.set_normal_bits(static_cast<std::uint32_t>(asked_normal_bits(options.normals_by, options.normal_bits)));
     *request.mutable_attributes() = conversion::to_wire(std::span(options.attributes));
     if (options.position_bits) request.set_position_bits(static_cast<std::uint32_t>(*options.position_bits));
     request.set_max_level(static_cast<std::uint32_t>(options.max_level));
@@ -32,7 +32,8 @@ v1::WatchRequest request_of(const std::string& session_id, const WatchOptions& o
 
 Watcher::Impl::Impl(const std::shared_ptr<Connection>& connection, const std::string& session_id,
                     const WatchOptions& options)
-    : call_(connection, session_id,
+    : normals_by_(options.normals_by),
+      call_(connection, session_id,
             {.patience = options.reconnect,
              .route_check = options.route_check,
              .on_reconnect = options.on_reconnect,
@@ -48,6 +49,7 @@ std::optional<ReceivedFrame> Watcher::Impl::receive() {
     if (frame) {
         find_changes(shown_bricks_, *frame);
         shown_bricks_ = frame->bricks;
+        frame->normals_by = normals_by_;
     }
     return frame;
 }

@@ -39,6 +39,7 @@ private:
 
     std::optional<ReceivedFrame> receive();
 
+    const NormalsBy normals_by_;
     WatchCall<v1::WatchResponse, Receiver> call_;
     std::vector<std::shared_ptr<const EncodedBrick>> shown_bricks_;
     LimitedWait<ReceivedFrame> wait_{[this] { return receive(); }};

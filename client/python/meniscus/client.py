@@ -105,6 +105,8 @@ class Client:
 
         meshes          True: they come back; False: their figures alone
         normal_bits     8: 2 to 16, 0 for none
+        normals_by      "server"; "receiver": computed here from the triangles, also where the session has none: none
+                        are sent, which saves half of the bytes or more, and normal_bits does not count
         codec           None: "packed", the fastest, from a server on this machine, "entropy", the smallest, from
                         others; or "draco"
         attributes      "all", names, or names with bits as in {"velocity": 12, "age": 0}: those that the meshes have
@@ -124,6 +126,7 @@ class Client:
 
         max_level         3: finest level of grid, 1 to 3; below 3 the surface is coarser, and as closed
         normal_bits       8: 2 to 16, 0 for none
+        normals_by        as that of stream()
         position_bits     None: as reconstructed; else vertices lie on multiples of cell_size / 2^position_bits
         codec             as that of stream()
         attributes        as those of stream(), with attribute_bits
@@ -154,7 +157,7 @@ class Client:
 
     def snapshot(self, session: AnySession, *, attributes: AttributeRequest = "all", **options: Any) -> Optional[Frame]:
         """The session's newest mesh; None if no frame has come yet. Keywords: ``max_level``, ``normal_bits``,
-        ``position_bits``, ``codec``, ``attributes`` and ``attribute_bits``, as those of watch()."""
+        ``normals_by``, ``position_bits``, ``codec``, ``attributes`` and ``attribute_bits``, as those of watch()."""
         texts = option_texts(options)
         texts["attribute"] = attribute_text(attributes)
         raw = self._raw.snapshot(_id_text(session), texts)
@@ -172,13 +175,15 @@ class Client:
         position: Whole = 0,
         count: Whole = 0,
         spray: bool = False,
+        normals_by: str = "server",
     ) -> RecordingReader:
         """Reads frames of a recording in order: ``count`` at most (0: all) from the place ``position`` on.
+        ``normals_by``: "server", as recorded, or "receiver", as those of stream(), which saves no bytes here.
 
         session: a RecordingInfo, which has its number; or the name or the id of a session, with the ``number``.
         """
         found = _recording(session, number)
-        return RecordingReader(self._raw.read_recording(*found, position, count, spray))
+        return RecordingReader(self._raw.read_recording(*found, position, count, spray, normals_by))
 
     def delete_recording(self, session: AnyRecording, number: Optional[Whole] = None) -> None:
         """Deletes the recording's file. Raises ServerError (failed_precondition) while it is written or read."""

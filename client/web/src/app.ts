@@ -1,5 +1,6 @@
 // The page: the list of sessions and recordings, or one of them.
 import { wantedCodecs } from './bricks/codecs';
+import { normalWish } from './bricks/normals_by';
 import { startDecodePool } from './decode/decode_pool';
 import type { Frame } from './bricks/frame';
 import { readEmbedding } from './frame/embedding';
@@ -38,6 +39,7 @@ export class App {
   private readonly server = new Server(
     { base: '', fetch: (input, init) => fetch(input, init) },
     wantedCodecs(location),
+    normalWish(location),
   );
   private readonly banner = new Banner();
   private readonly heading = new Heading(this.server, (live) => {

@@ -2,6 +2,7 @@ import { validateBytes } from 'gltf-validator';
 import { describe, expect, it } from 'vitest';
 import type { ShownBrick, Shown } from '../src/bricks/brick_store';
 import { brickKey, type EncodedBrick } from '../src/bricks/frame';
+import { withNormals } from '../src/decode/computed_normals';
 import { decodeBrick } from '../src/decode/decode_brick';
 import { writeGlb } from '../src/save/glb';
 import { writePly } from '../src/save/ply';
@@ -63,6 +64,20 @@ describe('writeGlb', () => {
     const file = writeGlb(shownOf(await tetrahedron([0, 0, 0], 1), await tetrahedron([3, 3, 3], 3, [-2, 0, 1])), up);
     const { issues } = await validateBytes(file);
     expect(issues.messages.filter(({ severity }) => severity < 2)).toEqual([]);
+  });
+
+  it('has computed normals, which Draco bytes do not have', async () => {
+    const shown = shownOf(await encodeBrick(flat));
+    const bricks = [...shown.bricks].map(
+      ([key, { encoded, decoded }]) => [key, { encoded, decoded: withNormals(decoded, offsetBits) }] as const,
+    );
+    const file = writeGlb({ ...shown, bricks: new Map(bricks) }, 'z');
+    const { issues } = await validateBytes(file);
+    expect(issues.messages.filter(({ severity }) => severity < 2)).toEqual([]);
+    const { json } = read(file);
+    expect(json.extensionsRequired).not.toContain('KHR_draco_mesh_compression');
+    const { attributes } = json.meshes[0]!.primitives[0]!;
+    expect(json.accessors[attributes.NORMAL!]!.bufferView).toBeDefined();
   });
 
   it('passes the validator without normals and without any mesh', async () => {

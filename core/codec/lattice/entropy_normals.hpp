@@ -1,8 +1,7 @@
 // The entropy profile's last section: normals as residuals to what the brick's own triangles show.
 //
-// A vertex's normal is predicted from its triangles, crack filling excepted, each weighted by 1 / (|e|^2 |g|^2) of the
-// two sides at the vertex (Max 1999: Weights for computing vertex normals from facet normals). All operations are exact
-// or rounded once, so that encoder and decoder predict the same.
+// A vertex's normal is predicted from its triangles, crack filling excepted (corner_normals.hpp). All operations are
+// exact or rounded once, so that encoder and decoder predict the same.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "codec/lattice/bit_stream.hpp"
+#include "codec/lattice/corner_normals.hpp"
 #include "codec/lattice/entropy_tables.hpp"
 #include "codec/lattice/lattice_brick.hpp"
 #include "codec/lattice/octahedron.hpp"
@@ -30,31 +30,18 @@ struct PredictedNormal {
 /// Positions and triangles of the brick are there.
 inline void predict_normals(const LatticeBrick& brick, std::vector<PredictedNormal>& normals) {
     normals.assign(brick.positions.size(), {});
-    using Vector = std::array<float, 3>;
-    const auto square = [](const Vector& v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; };
     for (std::size_t t = 0; t < brick.triangles.size(); ++t) {
         if (brick.levels[t] == TriangleLevel::crack) continue;
         const Triangle& triangle = brick.triangles[t];
-        std::array<Vector, 3> side;  // from corner i to the next
-        std::array<float, 3> length;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const LatticePosition& from = brick.positions[triangle[i]];
-            const LatticePosition& to = brick.positions[triangle[(i + 1) % 3]];
-            for (std::size_t k = 0; k < 3; ++k) side[i][k] = static_cast<float>(to[k] - from[k]);
-            length[i] = square(side[i]);
-        }
-        const Vector normal{side[0][1] * side[1][2] - side[0][2] * side[1][1],
-                            side[0][2] * side[1][0] - side[0][0] * side[1][2],
-                            side[0][0] * side[1][1] - side[0][1] * side[1][0]};
-        for (std::size_t i = 0; i < 3; ++i) {
-            const float weight = 1.0F / (length[i] * length[(i + 2) % 3]);
-            PredictedNormal& at = normals[triangle[i]];
+        const auto add = [&](std::size_t corner, const std::array<float, 3>& part) {
+            PredictedNormal& at = normals[triangle[corner]];
             for (std::size_t k = 0; k < 3; ++k) {
-                const float part = normal[k] * weight;
-                at.sum[k] += part;
-                at.magnitudes += std::abs(part);
+                at.sum[k] += part[k];
+                at.magnitudes += std::abs(part[k]);
             }
-        }
+        };
+        add_corner_normals<float>(
+            {brick.positions[triangle[0]], brick.positions[triangle[1]], brick.positions[triangle[2]]}, add);
     }
 }
 

@@ -13,6 +13,7 @@
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"
 #include "meniscus/mesh_hash.hpp"
+#include "meniscus/mesh_normals.hpp"
 #include "meniscus/names.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/reconstructor.hpp"

@@ -147,6 +147,19 @@ TEST_F(Cli, RefusesContradictions) {
     expect_refused(reconstruct({"--quiet", "--verbose"}), {"--quiet", "--verbose"});
     expect_refused(reconstruct({"--no-normals", "--normal-bits", "8"}), {"--normal-bits 8", "--no-normals"});
     EXPECT_EQ(run_meniscus(reconstruct({"--no-normals", "--normal-bits", "0"})).exit_code, 0);
+    for (const char* bits : {"0", "8"})
+        expect_refused(reconstruct({"--normals-by", "receiver", "--normal-bits", bits}),
+                       {"--normal-bits " + std::string(bits), "--normals-by receiver", "give one of the two"});
+    EXPECT_EQ(run_meniscus(reconstruct({"--normals-by", "server", "--normal-bits", "8"})).exit_code, 0);
+    expect_refused({"reconstruct", in_, "-o", path("out.bricks"), "--particle-radius", "1", "--normals-by", "receiver"},
+                   {"--normals-by receiver", "files of bricks", "--normal-bits 0"});
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"--normal-bits", "8"}, {"--format", "bricks"}}) {
+        std::vector<std::string> arguments{"watch", "one",           "--server",     "localhost:1",
+                                           "-o",    path("watched"), "--normals-by", "receiver"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        expect_refused(arguments, {more[0] == "--format" ? "files of bricks" : "--normal-bits 8"});
+    }
     expect_refused({"reconstruct", path("f_{}.vtk"), "-o", path("m_{}.ply"), "--particle-radius", "1", "--start", "3",
                     "--end", "2"},
                    {"3", "2"});

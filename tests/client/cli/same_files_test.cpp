@@ -85,6 +85,8 @@ TEST_F(SameFiles, ComeFromAServerAndFromALocalRun) {
     expect_same_file(".ply", {"--normal-bits", "5", "--field", "density", "--criterion", "count"});
     expect_same_file(".ply", {"--normal-bits", "12", "--field", "color", "--domain", "1", "1", "1", "6", "7", "8"});
     expect_same_file(".ply", {"--normal-bits", "9", "--positions", "uint16"});
+    expect_same_file(".ply", {"--normals-by", "receiver"});
+    expect_same_file(".ply", {"--normals-by", "receiver", "--no-normals", "--mode", "uniform", "--cell-size", "1"});
 }
 
 /// Particles with a velocity and a number each, as PLY.

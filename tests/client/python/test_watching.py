@@ -130,6 +130,18 @@ def test_the_codec_changes_no_mesh(shown, client, codec):
         assert watcher.next(60).mesh.sha256() == expected
 
 
+def test_normals_can_be_the_receivers_own(shown, client):
+    sent = client.snapshot(shown.id).mesh
+    own = client.snapshot(shown.id, normals_by="receiver").mesh
+    assert own.sha256() == sent.sha256() and own.normals.shape == sent.normals.shape
+    assert np.allclose(np.linalg.norm(own.normals, axis=1), 1)
+    # Of the same surface, but not the same numbers.
+    assert np.median((own.normals * sent.normals).sum(axis=1)) > 0.9
+    assert not np.array_equal(own.normals, sent.normals)
+    with shown.watch(normals_by="receiver") as watcher:
+        assert np.array_equal(watcher.next(60).mesh.normals, own.normals)
+
+
 def test_a_recording_has_the_frames_of_its_session(session, client, positions):
     count = 4
     with session.stream() as stream:
@@ -142,6 +154,8 @@ def test_a_recording_has_the_frames_of_its_session(session, client, positions):
         assert reader.ended and reader.next() is None
     assert [frame.mesh.sha256() for frame in frames] == received
     assert [frame.time for frame in frames] == [0, 0.5, 1, 1.5]
+    with client.read_recording(session.id, 1, normals_by="receiver") as reader:
+        assert not np.array_equal(reader.next(60).mesh.normals, frames[0].mesh.normals)
     with client.read_recording(session.id, 1, position=1, count=2) as reader:
         assert [frame.index for frame in reader] == [1, 2]
     (info,) = [listed for listed in client.recordings() if listed.session_id == session.id]

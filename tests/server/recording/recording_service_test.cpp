@@ -2,6 +2,7 @@
 #include "recording/recording_service.hpp"
 
 #include "cli/commands/command_line.hpp"
+#include "meniscus/mesh_normals.hpp"
 
 namespace meniscus::server::test {
 namespace {
@@ -45,6 +46,17 @@ TEST_F(RecordingService, SendsTheMeshesThatWereReconstructed) {
         EXPECT_EQ(mesh_sha256(frame->mesh()), local_sha256(frames_[i]));
     }
     EXPECT_FALSE(reader.next());
+}
+
+TEST_F(RecordingService, LeavesNormalsToAReceiverThatWantsItsOwn) {
+    RunningServer running(options());
+    const std::string id = recorded(running, {frames_[0]});
+    const Mesh recorded_ones = running.client.read_recording(id, 1).next()->mesh();
+    Mesh own = running.client.read_recording(id, 1, {.normals_by = client::NormalsBy::receiver}).next()->mesh();
+    EXPECT_NE(own.normals, recorded_ones.normals);
+    const Array<Normal> normals = own.normals;
+    compute_normals(own);
+    EXPECT_EQ(normals, own.normals);
 }
 
 TEST_F(RecordingService, SendsThePartThatIsAskedFor) {

@@ -218,11 +218,12 @@ MENISCUS_API meniscus_result meniscus_client_delete_session(meniscus_client* cli
 /* options: the settings, as for meniscus_reconstructor_create(); of the session: session (id: joins it if it is there
  * with equal settings; default: a new one), name, up-axis (x, y or z), length-unit (such as m), ephemeral (true, the
  * default: the server ends it soon after this process has vanished; false); of the stream: meshes (true or false:
- * whether they come back at all), normal-bits (2 to 16, 0 for none), attribute-bits (1 to 16, default 8: each float32
- * of the attributes comes back rounded to one of 2^bits values; 0: exactly), codec (of the meshes: packed, the default
- * from a server on this machine, entropy, the default from others, or draco), waiting-limit (received frames that wait
- * at most; 0, the default: no limit), policy (every-frame, latest or every-nth), nth, reconnect (seconds, 0: not at
- * all). */
+ * whether they come back at all), normal-bits (2 to 16, 0 for none), normals-by (server, the default, or receiver: the
+ * library computes them from the triangles, none are sent, and normal-bits does not count), attribute-bits (1 to 16,
+ * default 8: each float32 of the attributes comes back rounded to one of 2^bits values; 0: exactly), codec (of the
+ * meshes: packed, the default from a server on this machine, entropy, the default from others, or draco), waiting-limit
+ * (received frames that wait at most; 0, the default: no limit), policy (every-frame, latest or every-nth), nth,
+ * reconnect (seconds, 0: not at all). */
 MENISCUS_API meniscus_result meniscus_session_open(meniscus_client* client, const meniscus_options* options,
                                                    meniscus_session** session);
 /* Cancels what is in flight, and ends the session if this handle has made it, unless meniscus_session_leave() was
@@ -254,10 +255,11 @@ MENISCUS_API meniscus_result meniscus_session_cancel(meniscus_session* session);
 /* Frames that the policy has left out so far. */
 MENISCUS_API meniscus_result meniscus_session_dropped(const meniscus_session* session, uint64_t* frames);
 
-/* options: max-level (1 to 3), normal-bits (2 to 16, 0 for none), position-bits, codec (as above), region ("X0 Y0 Z0 X1
- * Y1 Z1", world units), spray (true or false: whether the particles that the surface leaves out come beside it),
- * bytes-per-second, viewpoint ("X Y Z"), reconnect (seconds), attribute (those of the session's attributes that the
- * meshes have: names with spaces between them, or all; default: none), attribute-bits (as above). */
+/* options: max-level (1 to 3), normal-bits (2 to 16, 0 for none), normals-by (as above), position-bits, codec (as
+ * above), region ("X0 Y0 Z0 X1 Y1 Z1", world units), spray (true or false: whether the particles that the surface
+ * leaves out come beside it), bytes-per-second, viewpoint ("X Y Z"), reconnect (seconds), attribute (those of the
+ * session's attributes that the meshes have: names with spaces between them, or all; default: none), attribute-bits (as
+ * above). */
 MENISCUS_API meniscus_result meniscus_watcher_open(meniscus_client* client, const char* session_id,
                                                    const meniscus_options* options, meniscus_watcher** watcher);
 MENISCUS_API void meniscus_watcher_destroy(meniscus_watcher* watcher);

@@ -93,13 +93,15 @@ std::uint32_t recording_number(const py::object& given) {
 }
 
 Held<RecordingSource> read_recording(const Connected& connected, const py::object& given, const py::object& number,
-                                     const py::object& position, const py::object& count, bool spray) {
+                                     const py::object& position, const py::object& count, bool spray,
+                                     const py::object& normals_by) {
     constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
     const std::string session = text_of(given, "session");
     const std::uint32_t which = recording_number(number);
     client::ReadOptions request{.position = whole_number(position, "position", largest),
                                 .count = whole_number(count, "count", largest),
                                 .spray = spray};
+    request.normals_by = by_name<client::NormalsBy>(text_of(normals_by, "normals_by"), "normals_by");
     return call_client(connected, [&](Client& client, const std::stop_token& stop) {
         request.stop = stop;
         const std::string id = client::recorded_session_id_of(client, session, stop);

@@ -1,6 +1,7 @@
 // From encoded frames to what is shown: decodes only what differs from what is shown, and shows a frame only when all of it is there.
 import type { DecodedBrick } from '../decode/decoded_brick';
 import type { BrickKey, EncodedBrick, Frame } from './frame';
+import { joinNormals } from './joined_normals';
 
 /** attribute: of those that the brick carries, the one that is decoded, too. */
 export type Decode = (brick: EncodedBrick, offsetBits: number, attribute?: string) => Promise<DecodedBrick>;
@@ -77,7 +78,7 @@ export class BrickStore {
     this.decoding = undefined;
   }
 
-  private async decodeFrame(frame: Frame): Promise<Map<BrickKey, ShownBrick>> {
+  private async decodeFrame(frame: Frame): Promise<ReadonlyMap<BrickKey, ShownBrick>> {
     const shown = this.current;
     const sameLattice = shown?.frame.offsetBits === frame.offsetBits;
     const { attribute } = this;
@@ -90,6 +91,6 @@ export class BrickStore {
         return [key, { encoded, decoded: await this.decode(encoded, frame.offsetBits, attribute) }];
       }),
     );
-    return new Map(bricks);
+    return joinNormals(new Map(bricks), shown?.bricks ?? new Map<BrickKey, ShownBrick>(), frame.offsetBits);
   }
 }

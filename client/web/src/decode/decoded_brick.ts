@@ -9,6 +9,8 @@ export interface DecodedBrick {
   readonly positions: Uint16Array;
   /** Unit vectors times 32767: x y z and a padding per point; none if the mesh has none. */
   readonly normals: Int16Array | undefined;
+  /** Of computed normals, which the bytes do not have. */
+  readonly border?: NormalBorder;
   /** The one that was asked for; none if the brick does not carry it. */
   readonly attribute?: DecodedAttribute;
   /** Three points per triangle, ordered by level: 1, 2, 3, crack filling. */
@@ -17,6 +19,13 @@ export interface DecodedBrick {
   readonly levelTriangles: readonly [number, number, number, number];
   /** Smallest and largest position on each axis. */
   readonly bounds: Bounds;
+}
+
+/** What a brick's own triangles give to the normals of points on its faces, which it shares with other bricks. */
+export interface NormalBorder {
+  readonly points: Uint32Array;
+  /** Of each of them: the sum x y z over its triangles, and that over crack filling. */
+  readonly sums: Float64Array;
 }
 
 export interface Bounds {

@@ -1,4 +1,5 @@
 // Decodes bricks beside the page's thread.
+import { withNormals } from './computed_normals';
 import { decodeBrick } from './decode_brick';
 import type { DecodeAnswer, DecodeRequest } from './messages';
 import { startDecoders } from './start_decoders';
@@ -7,7 +8,8 @@ let decoders = startDecoders();
 
 async function answer(request: DecodeRequest): Promise<DecodeAnswer> {
   try {
-    return { decoded: decodeBrick(await decoders, request.brick, request.offsetBits, request.attribute) };
+    const decoded = decodeBrick(await decoders, request.brick, request.offsetBits, request.attribute);
+    return { decoded: withNormals(decoded, request.offsetBits) };
   } catch (error) {
     // A brick that lies may have broken a decoder's memory, which is not used again.
     decoders = startDecoders();
@@ -21,6 +23,7 @@ addEventListener('message', (event: MessageEvent<DecodeRequest>) => {
     if ('decoded' in reply) {
       moved.push(reply.decoded.positions.buffer, reply.decoded.indices.buffer);
       if (reply.decoded.normals) moved.push(reply.decoded.normals.buffer);
+      if (reply.decoded.border) moved.push(reply.decoded.border.points.buffer, reply.decoded.border.sums.buffer);
       if (reply.decoded.attribute) moved.push(reply.decoded.attribute.values.buffer);
     }
     postMessage(reply, { transfer: moved });

@@ -1,6 +1,7 @@
 // Draws meshes small, with the viewer's own picture, on a canvas that nobody sees.
 import type { Shown } from '../bricks/brick_store';
 import type { Frame } from '../bricks/frame';
+import { joinNormals } from '../bricks/joined_normals';
 import type { DecodePool } from '../decode/decode_pool';
 import type { Theme } from '../view/environment';
 import type { UpAxis } from '../view/up_axis';
@@ -48,7 +49,7 @@ export class ThumbnailPainter {
           [key, { encoded, decoded: await this.pool.decode(encoded, frame.offsetBits) }] as const,
       ),
     );
-    return { frame, bricks: new Map(bricks) };
+    return { frame, bricks: joinNormals(new Map(bricks), new Map(), frame.offsetBits) };
   }
 
   private start(): Viewer {

@@ -29,10 +29,11 @@ export class Server {
   /** What the server offers of the codecs; none: it is to be asked. */
   private offered: Promise<readonly Codec[]> | undefined;
 
-  /** codecs: of bricks, the preferred one first. */
+  /** codecs: of bricks, the preferred one first. normals: of all meshes, whatever a request says of them. */
   constructor(
     private readonly endpoint: Endpoint,
     private readonly codecs: readonly Codec[],
+    private readonly normals: { readonly normalBits?: number } = {},
   ) {}
 
   /** The link's round trip, ms: the shortest time from a call to its answer; 0 before the first. */
@@ -79,7 +80,7 @@ export class Server {
       serverStream(
         this.endpoint,
         SurfaceService.method.snapshot,
-        { ...request, codecs },
+        { ...request, ...this.normals, codecs },
         this.options(signal, request.sessionId),
       ),
     );
@@ -95,7 +96,7 @@ export class Server {
       serverStream(
         this.endpoint,
         SurfaceService.method.watch,
-        { ...request, codecs, withSpray: true },
+        { ...request, ...this.normals, codecs, withSpray: true },
         this.options(signal, request.sessionId, opened),
       ),
     );

@@ -40,7 +40,7 @@ export function writeGlb(shown: Shown, up: UpAxis): Uint8Array {
     );
   const binary = new Binary();
   const meshes = bricks.map(({ encoded, decoded }) =>
-    encoded.codec === Codec.DRACO ? dracoMesh(encoded, decoded, binary) : plainMesh(decoded, binary),
+    isDraco({ encoded, decoded }) ? dracoMesh(encoded, decoded, binary) : plainMesh(decoded, binary),
   );
   const valueViews = values?.bytes.map((part) => binary.add(part, { byteStride: values.stride, target: arrayBuffer }));
   return container(document(shown, bricks, meshes, values, valueViews, binary, up), binary.bytes());
@@ -75,6 +75,11 @@ interface BrickMesh {
   readonly position: object;
   readonly normal: object;
   readonly primitive: object;
+}
+
+/** Whether its bytes are what glTF knows, and have all that is shown: computed normals they do not. */
+function isDraco({ encoded, decoded }: ShownBrick): boolean {
+  return encoded.codec === Codec.DRACO && !decoded.border;
 }
 
 function dracoMesh(encoded: EncodedBrick, decoded: DecodedBrick, binary: Binary): BrickMesh {
@@ -156,7 +161,7 @@ function document(
       ],
     };
   });
-  const hasDraco = bricks.some(({ encoded }) => encoded.codec === Codec.DRACO);
+  const hasDraco = bricks.some(isDraco);
   const extensions = [...(hasDraco ? [dracoExtension] : []), 'KHR_mesh_quantization'];
   return {
     asset,

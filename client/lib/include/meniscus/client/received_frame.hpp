@@ -12,6 +12,7 @@
 #include "meniscus/attribute_coding.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/client/frame_statistics.hpp"
+#include "meniscus/client/normals_by.hpp"
 #include "meniscus/mesh.hpp"
 
 namespace meniscus::client {
@@ -57,6 +58,7 @@ struct ReceivedFrame {
     std::vector<std::array<std::int32_t, 3>> vanished;
     FrameStatistics statistics;         ///< of the frame as reconstructed, whatever a watcher asks for
     std::vector<DroppedFrame> dropped;  ///< from a Stream: between the frame received before and this one, in order
+    NormalsBy normals_by = NormalsBy::server;  ///< receiver: mesh() computes them, whatever the bricks carry
 
     /// Decodes and welds the bricks; has the spray and the attributes that were asked for, too. Throws InvalidInput if
     /// they are not a mesh.

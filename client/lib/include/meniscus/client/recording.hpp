@@ -9,6 +9,7 @@
 #include <string>
 
 #include "meniscus/client/next.hpp"
+#include "meniscus/client/normals_by.hpp"
 #include "meniscus/client/received_frame.hpp"
 #include "meniscus/client/session_info.hpp"
 
@@ -35,6 +36,8 @@ struct ReadOptions {
     std::uint64_t count = 0;     ///< at most; 0: all from there on
     bool spray = false;          ///< whether the particles left out of the surface come beside the meshes
     std::stop_token stop{};      ///< when a stop is requested: as cancel()
+    /// server: as recorded. receiver saves no bytes here: recordings are sent as they are.
+    NormalsBy normals_by = NormalsBy::server;
 };
 
 /// Reads frames that were recorded, in order. All but cancel() belongs to one thread.

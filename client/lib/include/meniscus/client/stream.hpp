@@ -15,6 +15,7 @@
 
 #include "meniscus/attribute_coding.hpp"
 #include "meniscus/client/next.hpp"
+#include "meniscus/client/normals_by.hpp"
 #include "meniscus/client/particle_buffer.hpp"
 #include "meniscus/client/received_frame.hpp"
 #include "meniscus/client/reconnect_event.hpp"
@@ -45,6 +46,7 @@ constexpr std::string_view name_of(UploadPolicy policy) {
 struct StreamOptions {
     bool receive_meshes = true;
     int normal_bits = 8;  ///< 2 to 16, 0 for none
+    NormalsBy normals_by = NormalsBy::server;
     /// Of the meshes. None: packed from a server on this machine (a loopback address, a Unix socket), entropy from
     /// others. The server answers in Draco where it or its session has no other.
     std::optional<Codec> codec{};
@@ -80,6 +82,9 @@ struct StreamOptions {
         visit("receive_meshes", &S::receive_meshes, {.help = "whether meshes come back", .option = "meshes"});
         visit("normal_bits", &S::normal_bits,
               {.help = "bits per component of the normals, 2 to 16; 0: no normals", .range = {.least = 0.0}});
+        visit("normals_by", &S::normals_by,
+              {.help = "maker of the normals: server, with normal_bits, or receiver, from the triangles: fewer bytes, "
+                       "less exact"});
         visit("codec", &S::codec,
               {.help = "codec of the meshes: packed, the fastest, entropy, the smallest, or draco"});
         visit("waiting_limit", &S::waiting_limit,

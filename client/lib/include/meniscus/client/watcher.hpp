@@ -11,6 +11,7 @@
 
 #include "meniscus/attribute_coding.hpp"
 #include "meniscus/client/next.hpp"
+#include "meniscus/client/normals_by.hpp"
 #include "meniscus/client/received_frame.hpp"
 #include "meniscus/client/reconnect_event.hpp"
 #include "meniscus/codec.hpp"
@@ -21,7 +22,8 @@ namespace meniscus::client {
 /// The options of a watcher of meshes. Watchers with equal max_level, position_bits, normal_bits, attributes and codec
 /// cost the server one encode.
 struct WatchOptions {
-    int normal_bits = 8;                 ///< 2 to 16, 0 for none
+    int normal_bits = 8;  ///< 2 to 16, 0 for none
+    NormalsBy normals_by = NormalsBy::server;
     std::optional<int> position_bits{};  ///< vertices lie on multiples of c / 2^position_bits, 2 to the mesh's
                                          ///< offset_bits; none: as reconstructed
     std::optional<Codec> codec{};  ///< as in StreamOptions; with bytes_per_second it is entropy where none is given
@@ -52,6 +54,9 @@ struct WatchOptions {
               {.help = "finest level of grid, 1 to 3: a coarser surface, as closed", .range = {.least = 0.0}});
         visit("normal_bits", &W::normal_bits,
               {.help = "bits per component of the normals, 2 to 16; 0: no normals", .range = {.least = 0.0}});
+        visit("normals_by", &W::normals_by,
+              {.help = "maker of the normals: server, with normal_bits, or receiver, from the triangles: fewer bytes, "
+                       "less exact"});
         visit("position_bits", &W::position_bits,
               {.help = "vertices lie on multiples of the cell size / 2^BITS, 2 or more"});
         visit("codec", &W::codec,
@@ -72,6 +77,7 @@ struct WatchOptions {
 /// The form of a session's newest mesh; as in WatchOptions.
 struct SnapshotOptions {
     int normal_bits = 8;
+    NormalsBy normals_by = NormalsBy::server;
     std::optional<int> position_bits{};
     std::optional<Codec> codec{};
     int max_level = 3;
@@ -85,6 +91,9 @@ struct SnapshotOptions {
               {.help = "finest level of grid, 1 to 3: a coarser surface, as closed", .range = {.least = 0.0}});
         visit("normal_bits", &S::normal_bits,
               {.help = "bits per component of the normals, 2 to 16; 0: no normals", .range = {.least = 0.0}});
+        visit("normals_by", &S::normals_by,
+              {.help = "maker of the normals: server, with normal_bits, or receiver, from the triangles: fewer bytes, "
+                       "less exact"});
         visit("position_bits", &S::position_bits,
               {.help = "vertices lie on multiples of the cell size / 2^BITS, 2 or more"});
         visit("codec", &S::codec, {.help = "codec of the mesh: packed, the fastest, entropy, the smallest, or draco"});
