@@ -80,6 +80,7 @@ class Client:
         # rows: stream options
         meshes: Optional[bool] = True,
         normal_bits: Optional[Whole] = 8,
+        normals_by: Optional[Literal["server", "receiver"]] = "server",
         codec: Optional[Literal["entropy", "packed", "draco"]] = None,
         waiting_limit: Optional[Whole] = 0,
         policy: Optional[Literal["every-frame", "latest", "every-nth"]] = "every-frame",
@@ -98,6 +99,7 @@ class Client:
         # rows: watch options
         max_level: Optional[Whole] = 3,
         normal_bits: Optional[Whole] = 8,
+        normals_by: Optional[Literal["server", "receiver"]] = "server",
         position_bits: Optional[Whole] = None,
         codec: Optional[Literal["entropy", "packed", "draco"]] = None,
         region: Optional[Box] = None,
@@ -129,6 +131,7 @@ class Client:
         # rows: watch options
         max_level: Optional[Whole] = 3,
         normal_bits: Optional[Whole] = 8,
+        normals_by: Optional[Literal["server", "receiver"]] = "server",
         position_bits: Optional[Whole] = None,
         codec: Optional[Literal["entropy", "packed", "draco"]] = None,
         region: Optional[Box] = None,
@@ -159,6 +162,7 @@ class Client:
         # rows: snapshot options
         max_level: Optional[Whole] = 3,
         normal_bits: Optional[Whole] = 8,
+        normals_by: Optional[Literal["server", "receiver"]] = "server",
         position_bits: Optional[Whole] = None,
         codec: Optional[Literal["entropy", "packed", "draco"]] = None,
         # end of rows

@@ -28,6 +28,7 @@ class Session:
         # rows: stream options
         meshes: Optional[bool] = True,
         normal_bits: Optional[Whole] = 8,
+        normals_by: Optional[Literal["server", "receiver"]] = "server",
         codec: Optional[Literal["entropy", "packed", "draco"]] = None,
         waiting_limit: Optional[Whole] = 0,
         policy: Optional[Literal["every-frame", "latest", "every-nth"]] = "every-frame",
@@ -45,6 +46,7 @@ class Session:
         # rows: watch options
         max_level: Optional[Whole] = 3,
         normal_bits: Optional[Whole] = 8,
+        normals_by: Optional[Literal["server", "receiver"]] = "server",
         position_bits: Optional[Whole] = None,
         codec: Optional[Literal["entropy", "packed", "draco"]] = None,
         region: Optional[Box] = None,
