@@ -19,7 +19,6 @@ const shading: Record<QuantityKind, { readonly value: string; readonly declare: 
   id: { value: 'attribute vec3 value;', declare: 'flat varying vec3 shown;', color: 'shown' },
 };
 
-/** hasNormals: shared with the water. */
 export class ColoredMaterial {
   readonly material: ShaderMaterial;
   private readonly table = new DataTexture(new Uint8Array(4 * mapColors), mapColors, 1);
@@ -28,13 +27,12 @@ export class ColoredMaterial {
   private readonly unlit = { value: false };
   private map: ColorMap | undefined;
 
-  constructor(kind: QuantityKind, environment: EnvironmentUniforms, hasNormals: { value: boolean }) {
+  constructor(kind: QuantityKind, environment: EnvironmentUniforms) {
     this.table.minFilter = this.table.magFilter = LinearFilter;
     const { value, declare, color } = shading[kind];
     this.material = new ShaderMaterial({
       uniforms: {
         ...environment,
-        hasNormals,
         colorMap: { value: this.table },
         range: { value: this.range },
         unlit: this.unlit,

@@ -26,7 +26,6 @@ export function surfaceVertexShader(declarations = '', statements = ''): string 
 /** Gives a fragment stage toEye() and facingNormal(). */
 export const surfaceFragmentGlsl = /* glsl */ `
 #include <clipping_planes_pars_fragment>
-uniform bool hasNormals;
 ${shared}
 vec3 toEye() {
   return normalize(cameraPosition - place);
@@ -34,7 +33,7 @@ vec3 toEye() {
 
 /** One that looks away from the eye, as seen at a silhouette, is turned until it does not. */
 vec3 facingNormal(vec3 v) {
-  vec3 n = normalize(hasNormals ? outward : cross(dFdx(place), dFdy(place)));
+  vec3 n = normalize(outward);
   return dot(n, v) < 0.0 ? normalize(n - 1.02 * dot(n, v) * v) : n;
 }
 `;

@@ -176,9 +176,6 @@ export class Viewer {
   show(shown: Shown): void {
     const first = this.shown === undefined || this.shown.bricks.size === 0;
     this.shown = shown;
-    this.water.uniforms.hasNormals.value = [...shown.bricks.values()].every(
-      ({ decoded }) => decoded.normals !== undefined,
-    );
     const box = worldBox(shown);
     if (first) this.adopt(box);
     else this.bricks.show(shown, this.origin);
@@ -280,7 +277,7 @@ export class Viewer {
   private coloredMaterial(kind: QuantityKind): ColoredMaterial {
     let made = this.coloredMaterials.get(kind);
     if (!made) {
-      made = new ColoredMaterial(kind, this.environment, this.water.uniforms.hasNormals);
+      made = new ColoredMaterial(kind, this.environment);
       made.material.clippingPlanes = this.cutPlanes;
       this.coloredMaterials.set(kind, made);
     }

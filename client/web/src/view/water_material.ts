@@ -7,14 +7,12 @@ export interface WaterUniforms {
   [name: string]: { value: unknown };
   thickness: { value: Texture | null };
   screenSize: { value: Vector2 };
-  hasNormals: { value: boolean };
 }
 
 export function waterMaterial(environment: EnvironmentUniforms): ShaderMaterial & { uniforms: WaterUniforms } {
   const water: WaterUniforms = {
     thickness: { value: null },
     screenSize: { value: new Vector2(1, 1) },
-    hasNormals: { value: true },
   };
   const material = new ShaderMaterial({
     uniforms: { ...environment, ...water },
