@@ -47,7 +47,9 @@ async function latencies(browser, codec) {
     const begun = Number((await lines.next()).value.split(' ')[1]);
     // The frame is drawn once its bricks are there. The page is at rest when the next one comes.
     const drawn = await page
-      .waitForFunction((frame) => Number(document.getElementById('view').dataset.frame) >= frame, i, { timeout: patience })
+      .waitForFunction((frame) => Number(document.getElementById('view').dataset.frame) >= frame, i, {
+        timeout: patience,
+      })
       .catch(() => null);
     if (!drawn) ++lost;
     else if (i >= warm) seconds.push((await page.evaluate(() => window.sent.at(-1))) - begun);
