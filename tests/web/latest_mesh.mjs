@@ -1,9 +1,10 @@
 import assert from 'node:assert/strict';
-import { readFileSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { readFileSync, mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { describe, it } from 'node:test';
 import validator from 'gltf-validator';
+import { lattice, writeParticles } from './support/particles.mjs';
 import { run, startServer, startUploader } from './support/programs.mjs';
 
 /** The complaints of Khronos's validator about a file, hints left out. */
@@ -41,14 +42,8 @@ describe('a mesh as GLB', () => {
   it('is written by meniscus reconstruct as the Khronos validator passes it', async () => {
     const folder = mkdtempSync(join(tmpdir(), 'meniscus-glb-'));
     try {
-      const places = [0, 1, 2, 3].map((i) => i * 0.05);
-      const points = places.flatMap((x) => places.flatMap((y) => places.map((z) => `${x} ${y} ${z}`)));
       const particles = join(folder, 'particles.ply');
-      const fields = ['x', 'y', 'z'].map((axis) => `property float ${axis}\n`).join('');
-      writeFileSync(
-        particles,
-        `ply\nformat ascii 1.0\nelement vertex ${points.length}\n${fields}end_header\n${points.join('\n')}\n`,
-      );
+      writeParticles(particles, lattice(4, 4, 4, 0.05));
       const mesh = join(folder, 'mesh.glb');
       await run(['reconstruct', particles, '-o', mesh, '--particle-radius', '0.025']);
       assert.deepEqual(await complaints(readFileSync(mesh)), []);
