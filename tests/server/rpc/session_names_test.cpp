@@ -5,8 +5,8 @@
 #include <memory>
 #include <thread>
 
-#include "cli/surfaces/session_lookup.hpp"
 #include "conversion/settings_conversion.hpp"
+#include "meniscus/client/session_lookup.hpp"
 #include "meniscus/error.hpp"
 #include "running_server.hpp"
 #include "tcp_proxy.hpp"
@@ -81,18 +81,18 @@ TEST(SessionName, StandsForTheOnlySessionThatHasIt) {
     const std::string id = client::new_session_id();
     const std::string other = client::new_session_id();
     running.client.create_session(id, settings(), {.description = wave_pool});
-    EXPECT_EQ(cli::session_id_of(running.client, wave_pool.name), id);
-    EXPECT_EQ(cli::session_id_of(running.client, other), other) << "an id is one, whether it is there or not";
-    EXPECT_NE(message_of([&] { cli::session_id_of(running.client, "w\u00e4ve pool"); }).find("no session has"),
+    EXPECT_EQ(client::session_id_of(running.client, wave_pool.name), id);
+    EXPECT_EQ(client::session_id_of(running.client, other), other) << "an id is one, whether it is there or not";
+    EXPECT_NE(message_of([&] { client::session_id_of(running.client, "w\u00e4ve pool"); }).find("no session has"),
               std::string::npos);
-    EXPECT_THROW(cli::session_id_of(running.client, ""), InvalidInput);
+    EXPECT_THROW(client::session_id_of(running.client, ""), InvalidInput);
     running.client.create_session(other, settings(), {.description = wave_pool});
-    const std::string message = message_of([&] { cli::session_id_of(running.client, wave_pool.name); });
+    const std::string message = message_of([&] { client::session_id_of(running.client, wave_pool.name); });
     for (const std::string& word : {id, other, std::string("2 sessions")})
         EXPECT_NE(message.find(word), std::string::npos) << message;
     // A name in the form of an id is never taken for it.
     running.client.create_session(client::new_session_id(), settings(), {.description = {.name = id}});
-    EXPECT_EQ(cli::session_id_of(running.client, id), id);
+    EXPECT_EQ(client::session_id_of(running.client, id), id);
 }
 
 ServerOptions ephemeral_after(std::chrono::milliseconds time) {
