@@ -133,7 +133,9 @@ def check_codecs(bench, frame, folder):
     """Each codec has its row for each mode; tables come with the hash of their frames, which need a radius."""
     few = ["--rounds", "1", "--normal-bits", "8", "--sections", "--receiver-normals", "--out", folder]
     printed = subprocess.run([bench, "codecs", frame, *few], check=True, stdout=subprocess.PIPE, text=True).stdout
-    check(printed.count("degrees off (median)") == 2, f"codecs: no error of a receiver's normals for each mode: {printed}")
+    check(
+        printed.count("degrees off (median)") == 2, f"codecs: no error of a receiver's normals for each mode: {printed}"
+    )
     rows = [(row["mode"], row["codec"]) for row in read_rows(folder, "codecs")]
     expected = [(mode, codec) for mode in ("adaptive", "uniform") for codec in ("draco", "packed", "entropy")]
     check(rows == expected, f"codecs: {rows}")

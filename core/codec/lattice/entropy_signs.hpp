@@ -12,6 +12,40 @@
 
 namespace meniscus {
 
+/// Of each cell of a row the context of its level, without the level of the cell before it, which counts 32. levels: of
+/// the row, in an array of the closed brick.
+inline std::array<int, brick_size> contexts_of_levels(const std::uint8_t* levels) {
+    const std::uint8_t* const north = levels - closed_step(1);
+    const std::uint8_t* const below = levels - closed_step(2);
+    const std::uint8_t* const below_north = below - closed_step(1);
+    const std::uint8_t* const below_south = below + closed_step(1);
+    static constexpr std::array<std::uint8_t, 19> edge_classes{0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 5, 6, 6, 6, 7, 7, 7, 7};
+    static constexpr std::array<std::uint8_t, 13> corner_classes{0, 1, 1, 2, 2, 2, 3, 3, 3, 3, 3, 3, 3};
+    std::array<int, brick_size> contexts;
+    for (int x = 0; x < brick_size; ++x) {
+        const int across_edges =
+            north[x - 1] + north[x + 1] + below[x - 1] + below[x + 1] + below_north[x] + below_south[x];
+        const int across_corners = below_north[x - 1] + below_north[x + 1] + below_south[x - 1] + below_south[x + 1];
+        contexts[static_cast<std::size_t>(x)] = (north[x] << 2 | below[x] << 4) * 32 +
+                                                edge_classes[static_cast<std::size_t>(across_edges)] * 4 +
+                                                corner_classes[static_cast<std::size_t>(across_corners)];
+    }
+    return contexts;
+}
+
+/// Likewise of whether it draws, where all cells that do have one level. The cell before it counts 7.
+inline std::array<int, brick_size> contexts_of_cells(const std::uint8_t* levels) {
+    const auto draws = [](std::uint8_t level) { return level != 0 ? 1 : 0; };
+    const std::uint8_t* const north = levels - closed_step(1);
+    const std::uint8_t* const below = levels - closed_step(2);
+    std::array<int, brick_size> contexts;
+    for (int x = 0; x < brick_size; ++x)
+        contexts[static_cast<std::size_t>(x)] = (draws(north[x]) * 2 + draws(below[x]) * 4) * 7 + draws(north[x - 1]) +
+                                                draws(north[x + 1]) + draws(below[x - 1]) + draws(below[x + 1]) +
+                                                draws(below[x - closed_step(1)]) + draws(below[x + closed_step(1)]);
+    return contexts;
+}
+
 /// Codes which cells draw, and their levels. When it decodes, the lattice is clear before, and has its cells after.
 /// one_level: of all cells; 0 if they differ. Returns the finest level that was coded: beyond 3 none is known.
 template <class Coder>
@@ -32,34 +66,17 @@ int code_cells(Coder& coder, const EntropyTables& tables, BrickLattice& lattice,
             any = coder.code(tables.rows, context, any ? 1 : 0) != 0;
             if (!any) continue;
             rows |= 1U << y;
+            const std::array<int, brick_size> contexts =
+                one_level != 0 ? contexts_of_cells(&lattice.level[first]) : contexts_of_levels(&lattice.level[first]);
             for (int x = 0; x < brick_size; ++x) {
                 const int at = first + x;
                 const int west = level(at - 1);
-                const int north = level(at - closed_step(1));
-                const int below = level(at - closed_step(2));
-                const auto beside = [&](int dx, int dy, int dz) {
-                    return level(at + dx + dy * closed_step(1) + dz * closed_step(2));
-                };
-                const std::array<int, 6> diagonals{beside(-1, -1, 0), beside(1, -1, 0),  beside(-1, 0, -1),
-                                                   beside(1, 0, -1),  beside(0, -1, -1), beside(0, 1, -1)};
+                const int before = contexts[static_cast<std::size_t>(x)];
                 int symbol = level(at);
-                if (one_level != 0) {
-                    int drawing = 0;
-                    for (const int diagonal : diagonals) drawing += diagonal != 0 ? 1 : 0;
-                    const int neighbors = (west != 0 ? 1 : 0) | (north != 0 ? 2 : 0) | (below != 0 ? 4 : 0);
-                    symbol = coder.code(tables.cells, neighbors * 7 + drawing, symbol != 0 ? 1 : 0) * one_level;
-                } else {
-                    int levels = 0;
-                    for (const int diagonal : diagonals) levels += diagonal;
-                    static constexpr std::array<std::int8_t, 19> classes{0, 1, 1, 2, 2, 3, 3, 4, 4, 5,
-                                                                         5, 5, 6, 6, 6, 7, 7, 7, 7};
-                    const int corners = beside(-1, -1, -1) + beside(1, -1, -1) + beside(-1, 1, -1) + beside(1, 1, -1);
-                    const int beyond = corners == 0 ? 0 : corners <= 2 ? 1 : corners <= 5 ? 2 : 3;
-                    const int neighbors = west | north << 2 | below << 4;
-                    symbol =
-                        coder.code(tables.levels,
-                                   (neighbors * 8 + classes[static_cast<std::size_t>(levels)]) * 4 + beyond, symbol);
-                }
+                if (one_level != 0)
+                    symbol = coder.code(tables.cells, before + (west != 0 ? 7 : 0), symbol != 0 ? 1 : 0) * one_level;
+                else
+                    symbol = coder.code(tables.levels, before + west * 32, symbol);
                 if constexpr (!Coder::encodes)
                     if (symbol != 0) lattice.add_cell(at, std::min(symbol, 3));
                 finest = std::max(finest, symbol);

@@ -204,7 +204,7 @@ TEST(CInProcess, RefusesWrongOptionsNamingValueAndLimit) {
         {{{"preset", "paper"}, {"bisection-steps", "8"}}, "bisection steps are 8, must be 1 to 7"},
         {{{"smoothness", "8"}}, "the smoothness is 8, must be 5 to 7"},
         {{{"smoothness", "5.5"}}, "option 'smoothness' is '5.5', must be a whole number"},
-        {{{"smoothness", "-5"}}, "option 'smoothness' is '-5', must be a whole number, 0 to 4294967295"},
+        {{{"smoothness", "-5"}}, "option 'smoothness' is '-5', must be a whole number, 0 or more"},
         {{{"smoothness", "5000000000"}}, "option 'smoothness' is '5000000000', must be a whole number"},
         {{{"normals", "yes"}}, "option 'normals' is 'yes', must be true or false"},
         {{{"domain", "0 0 0 1 1"}}, "option 'domain' is '0 0 0 1 1', must be 6 numbers"},

@@ -146,11 +146,11 @@ def test_a_received_mesh_is_saved_to_the_same_bytes(session, positions, carried,
 def test_a_file_that_cannot_be_written_leaves_the_old_one(mesh, tmp_path):
     with pytest.raises(meniscus.InvalidInput, match=r"nowhere"):
         mesh.save(tmp_path / "nowhere" / "mesh.ply")
-    old = tmp_path / "mesh.stl"
+    old = tmp_path / "mesh.docx"
     old.write_text("old")
-    with pytest.raises(meniscus.InvalidInput, match=r"\.stl"):
+    with pytest.raises(meniscus.InvalidInput, match=r"\.docx"):
         mesh.save(old)
-    assert old.read_text() == "old" and os.listdir(tmp_path) == ["mesh.stl"]
+    assert old.read_text() == "old" and os.listdir(tmp_path) == ["mesh.docx"]
 
 
 def test_a_real_frame_has_the_mesh_of_the_command_line(tmp_path):

@@ -92,7 +92,7 @@ def test_a_larger_file_than_is_allowed_is_refused(mesh, tmp_path):
     mesh.save(tmp_path / "m.bricks")
     with pytest.raises(meniscus.LimitExceeded, match="at most 100 are read: give max_bytes"):
         meniscus.read_bricks(tmp_path / "m.bricks", max_bytes=100)
-    for wrong in -1, 1e9, None:
+    for wrong in -1, 1e9:
         with pytest.raises(meniscus.InvalidInput, match=f"max_bytes is {wrong}, must be a whole number"):
             meniscus.read_bricks(tmp_path / "m.bricks", max_bytes=wrong)
 

@@ -33,7 +33,9 @@ std::size_t peak_of(pid_t process) {
 /// One call of a connection; its request is up to the test.
 class Call {
 public:
-    Call(const client::Connection& connection, const char* method) : stub_(connection.channel) {
+    Call(const client::Connection& connection, const char* method, const std::string& session = {})
+        : stub_(connection.channel) {
+        if (!session.empty()) client::add_session_id(context_, session);
         call_ = stub_.PrepareCall(&context_, method, &queue_);
         call_->StartCall(this);
         wait();
@@ -67,6 +69,12 @@ private:
     std::unique_ptr<grpc::GenericClientAsyncReaderWriter> call_;
 };
 
+/// Of a request without fields.
+grpc::ByteBuffer no_bytes() {
+    const grpc::Slice empty;
+    return {&empty, 1};
+}
+
 /// This number of mebibytes, all of them the same one.
 grpc::ByteBuffer mebibytes(std::size_t count) {
     static const std::vector<char> bytes(std::size_t{1} << 20, '\0');
@@ -77,17 +85,19 @@ grpc::ByteBuffer mebibytes(std::size_t count) {
 TEST(LargeRequest, IsCutOffLongBeforeItIsWhole) {
     Process process(on_free_port());
     const std::string address = process.address();
+    const std::string id = client::new_session_id();
+    client::Client(address).create_session(id, settings());
     const client::Connection connection(address);
     const std::size_t before = peak_of(process.pid());
     for (const char* method :
          {list_sessions, "/meniscus.v1.SurfaceService/Watch", "/meniscus.v1.SurfaceService/Stream"}) {
-        Call call(connection, method);
+        Call call(connection, method, method == list_sessions ? std::string() : id);
         call.send(mebibytes(512));
         EXPECT_EQ(call.end().error_code(), grpc::StatusCode::CANCELLED) << method;
     }
     EXPECT_LT(peak_of(process.pid()) - before, std::size_t{128} << 20U);
     Call next(connection, list_sessions);
-    next.send(grpc::ByteBuffer());
+    next.send(no_bytes());
     EXPECT_TRUE(next.end().ok()) << "its connection is as good as before";
 }
 
@@ -110,7 +120,7 @@ TEST(LargeRequest, IsNoneThatComesLateBesideUploadsOfItsConnection) {
     upload->Write(request);
     request.mutable_frame_chunk()->set_data(std::string(1'000'000, '\0'));
     for (int i = 0; i < 120; ++i) upload->Write(request);
-    late.send(grpc::ByteBuffer());
+    late.send(no_bytes());
     const grpc::Status status = late.end();
     EXPECT_TRUE(status.ok()) << status.error_message();
     context.TryCancel();

@@ -1,6 +1,6 @@
-"""Pushes the frames of a session one by one: pushes.py ADDRESS PARTICLES NUMBER COUNT. Prints the session's id, then for
-each line of its input the index and the time of a push, in seconds since the epoch. NUMBER particles: the file's, side by
-side until there are as many. The water moves a little from frame to frame, so that no brick stays."""
+"""Pushes the frames of a session one by one: pushes.py ADDRESS PARTICLES NUMBER COUNT. Prints the session's id, then
+for each line of its input the index and the time of a push, in seconds since the epoch. NUMBER particles: the file's,
+side by side until there are as many. The water moves a little from frame to frame, so that no brick stays."""
 
 import sys
 import time

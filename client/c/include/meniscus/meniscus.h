@@ -68,8 +68,9 @@ MENISCUS_API const char* meniscus_version(void);
 /* ---- Options: values by name ------------------------------------------------------------------------------------ */
 
 /* Named values in any order, for the functions that take them; each says which names it knows, and refuses others; a
- * name that none of them knows is refused where it is set. The names and values are those of the command line's options without "--"; durations are in seconds. NULL in place of
- * options: none are set. Options may be destroyed after the call that they were for, or used for more calls. */
+ * name that none of them knows is refused where it is set. The names and values are those of the command line's options
+ * without "--"; durations are in seconds. NULL in place of options: none are set. Options may be destroyed after the
+ * call that they were for, or used for more calls. */
 typedef struct meniscus_options meniscus_options;
 
 MENISCUS_API meniscus_result meniscus_options_create(meniscus_options** options);

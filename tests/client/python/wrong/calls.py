@@ -163,7 +163,7 @@ FILES = {
 }
 
 MESH_FILES = {
-    "unknown extension": ("mesh.stl", Bad, r"\.stl", r"\.ply"),
+    "unknown extension": ("mesh.docx", Bad, r"\.docx", r"\.ply"),
     "no extension": ("mesh", Bad, r"\.ply"),
     "no folder": ("/nowhere/at/all/mesh.ply", Bad, "/nowhere"),
     "empty": ("", Bad, "."),
