@@ -3,7 +3,7 @@ import { describe, it } from 'node:test';
 import { missing, screenshot } from './support/browser.mjs';
 import { startServer } from './support/programs.mjs';
 import { frameCount, startReplay } from './support/recording.mjs';
-import { link, open, recordFrames, says, state, surface } from './support/viewer.mjs';
+import { link, open, recordFrames, says, state, stepBack, surface } from './support/viewer.mjs';
 
 describe('frames', { skip: missing }, () => {
   const small = { viewport: { width: 480, height: 400 } };
@@ -14,6 +14,7 @@ describe('frames', { skip: missing }, () => {
     const replay = await startReplay(server);
     const page = await open(link(server, replay.session), small);
     await surface(page);
+    await stepBack(page);
     await recordFrames(page);
     await page.waitForFunction(() => new Set(window.drawn.map(([frame]) => frame)).size >= 200, undefined, {
       polling: 500,

@@ -6,7 +6,7 @@ import { save } from './support/files.mjs';
 import { boundsOfPly, reload } from './support/meshes.mjs';
 import { startServer } from './support/programs.mjs';
 import { startReplay } from './support/recording.mjs';
-import { link, open, shown, state, surface } from './support/viewer.mjs';
+import { link, open, shown, state, stepBack, surface } from './support/viewer.mjs';
 
 describe('playback', { skip: missing }, () => {
   it('pauses, steps and scrubs through what has been seen, and goes on', async () => {
@@ -52,6 +52,7 @@ describe('playback', { skip: missing }, () => {
     const simulator = await startReplay(server);
     const page = await open(link(server, simulator.session));
     await surface(page);
+    await stepBack(page);
     await page.click('#pause');
     await state(page, 'paused');
     const { bytes: glb } = await save(page, '#glb');

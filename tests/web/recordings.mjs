@@ -6,7 +6,7 @@ import { describe, it } from 'node:test';
 import { missing, screenshot } from './support/browser.mjs';
 import { startServer, startUploader } from './support/programs.mjs';
 import { recordedFile } from './support/recording.mjs';
-import { open, shown, state } from './support/viewer.mjs';
+import { open, shown, state, stepBack } from './support/viewer.mjs';
 
 describe('a recording', { skip: missing }, () => {
   it('opens, plays, scrubs, steps, and reopens by its link', async () => {
@@ -43,6 +43,7 @@ describe('a recording', { skip: missing }, () => {
       await page.waitForFunction(() => Number(document.getElementById('view').dataset.frame) >= 2);
       assert.equal(await page.getAttribute('#scrub', 'max'), '59');
 
+      await stepBack(page);
       const shows = async (frame) => {
         await page.waitForFunction((wanted) => Number(document.getElementById('view').dataset.frame) === wanted, frame);
         assert.deepEqual(await shown(page), { frame, triangles: triangles[frame] });

@@ -56,6 +56,13 @@ export function shown(page) {
   });
 }
 
+/** Moves the camera away, so that the picture has all of the water: bricks beside it are not drawn. */
+export async function stepBack(page) {
+  const { x, y, width, height } = await page.locator('#view').boundingBox();
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.mouse.wheel(0, 1500);
+}
+
 /** Records every frame that is drawn, with its number of triangles, in the page's `drawn`. */
 export function recordFrames(page) {
   return page.evaluate(() => {
