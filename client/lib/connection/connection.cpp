@@ -113,7 +113,7 @@ std::string in_plain_words(const std::string& reason) {
         return "what listens there speaks HTTP/1, as the port of a viewer or a proxy does: the server itself listens "
                "at port " +
                std::string(address::default_port) + " unless it was told otherwise";
-    if (has("C-ares") || has("DNS resolution")) return "no machine of this name is known";
+    if (has("C-ares") || has("DNS resolution")) return "its name cannot be resolved to an address";
     return reason;
 }
 
