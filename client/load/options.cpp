@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/options/number_range.hpp"
 #include "cli/options/policy_options.hpp"
 #include "cli/options/refusal.hpp"
 #include "meniscus/reconstructor.hpp"
@@ -18,15 +19,16 @@ std::optional<EarlyExit> parse_command_line(int argc, const char* const* argv, L
     app.add_option("--watchers", options.watchers, "Watchers of each session that read as fast as they can");
     app.add_option("--slow-watchers", options.slow,
                    "Watchers of each session that take --slow-seconds over each frame");
-    app.add_option("--slow-seconds", options.slow_seconds, "What a slow watcher takes")->check(CLI::Range(0.0, 3600.0));
+    app.add_option("--slow-seconds", options.slow_seconds, "What a slow watcher takes")
+        ->check(cli::number_range(0.0, 3600.0));
     app.add_option("--stalled-watchers", options.stalled, "Watchers of each session that never read");
     app.add_option("--vanishing-watchers", options.vanishing,
                    "Watchers of each session that break their connection after --vanish-after frames, and come again");
     app.add_option("--vanish-after", options.vanish_after, "Frames that a vanishing watcher stays for");
-    app.add_option("--rate", options.rate, "Frames per second of each simulator")->check(CLI::Range(0.001, 1e6));
-    app.add_option("--seconds", options.seconds, "How long simulators send")->check(CLI::Range(0.001, 1e7));
+    app.add_option("--rate", options.rate, "Frames per second of each simulator")->check(cli::number_range(0.001, 1e6));
+    app.add_option("--seconds", options.seconds, "How long simulators send")->check(cli::number_range(0.001, 1e7));
     app.add_option("--warm-up", options.warm_up, "Seconds at the beginning whose latencies do not count")
-        ->check(CLI::Range(0.0, 1e7));
+        ->check(cli::number_range(0.0, 1e7));
     app.add_flag("--meshes,!--no-meshes", options.stream.receive_meshes, "Whether simulators want their meshes back")
         ->default_str("true");
     cli::add_policy_options(app, options.stream);

@@ -7,6 +7,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/commands/examples.hpp"
 #include "cli/options/named_option.hpp"
+#include "cli/options/number_range.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/read_limits_option.hpp"
 #include "cli/sequence/distinct_files.hpp"
@@ -87,7 +88,7 @@ void add_picture(CLI::App& app) {
         ->capture_default_str();
     command.add_option("--view", options->view, "AZIMUTH ELEVATION: where the viewer stands, degrees (default 30 25)")
         ->expected(2)
-        ->check(CLI::Range(-360.0, 360.0));
+        ->check(number_range(-360.0, 360.0));
     add_named_option(command, "--up", options->options.up, "Axis that points up");
     add_examples(command, {"meniscus picture surface.ply -o surface.png",
                            "meniscus picture surface.ply -o surface.png --wireframe --up z --view 60 20",

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/options/named_option.hpp"
+#include "cli/options/number_range.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/read_limits_option.hpp"
 #include "cli/sequence/distinct_files.hpp"
@@ -123,13 +124,7 @@ void ReconstructFiles::add_sequence_to(CLI::App& command) {
             "--frame-rate", frame_rate,
             "Frames per second: frame number N, on a server and in .bricks, has the time N / RATE in place of 0")
         ->type_name("RATE")
-        ->check(CLI::Validator(
-            [](const std::string& text) -> std::string {
-                double rate = 0.0;  // CLI11's Range takes what is no number
-                if (CLI::detail::lexical_cast(text, rate) && rate >= 0.001 && rate <= 1e6) return {};
-                return text + " not in range 0.001 to 1000000";
-            },
-            ""));
+        ->check(number_range(0.001, 1e6).description(""));
     command.add_option("--pvd", pvd, "With .vtp: list the sequence for ParaView in this .pvd, frame numbers as times");
     command.add_option("--usd-stage", usd_stage,
                        "With .usda: a stage that shows the sequence by value clips, frame numbers as time codes");

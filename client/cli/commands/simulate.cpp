@@ -11,6 +11,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/commands/examples.hpp"
 #include "cli/options/named_option.hpp"
+#include "cli/options/number_range.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/settings_options.hpp"
 #include "cli/options/verbosity.hpp"
@@ -147,7 +148,7 @@ void add_scene(CLI::App& command, SimulateOptions& options) {
         ->capture_default_str();
     command.add_option("--frames", options.frames, "Number of frames")->capture_default_str();
     command.add_option("--frame-seconds", options.frame_seconds, "Simulated time between two frames")
-        ->check(CLI::Range(1e-4, 1.0))
+        ->check(number_range(1e-4, 1.0))
         ->capture_default_str();
     command.add_flag("--adaptive", options.adaptive,
                      "Particles of two sizes: groups of eight that are more than four radii below the surface are "

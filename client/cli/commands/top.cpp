@@ -9,6 +9,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/examples.hpp"
+#include "cli/options/number_range.hpp"
 #include "cli/options/seconds_option.hpp"
 #include "cli/options/server_flags.hpp"
 #include "cli/print/session_table.hpp"
@@ -58,7 +59,7 @@ void add_top(CLI::App& app) {
         *app.add_subcommand("top", "Watch a server's sessions: frames per second, latency, sizes, drops");
     options->server.add_to(command, "Whose")->required();
     add_seconds(command, "--interval", options->interval, "Seconds from one look to the next")
-        ->check(CLI::Range(0.1, 3600.0))
+        ->check(number_range(0.1, 3600.0))
         ->default_str("1");
     command.add_flag("--once", options->once, "Print one table, as is done when the output is no terminal");
     add_examples(command, {"meniscus top --server localhost", "meniscus top --server localhost --once"});

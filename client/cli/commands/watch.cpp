@@ -12,6 +12,7 @@
 #include "cli/commands/examples.hpp"
 #include "cli/options/named_option.hpp"
 #include "cli/options/normals_by.hpp"
+#include "cli/options/number_range.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/seconds_option.hpp"
 #include "cli/options/server_flags.hpp"
@@ -114,7 +115,7 @@ void add_watch(CLI::App& app) {
             ->capture_default_str();
         add_seconds(command, "--timeout", options->timeout,
                     "Seconds without a frame after which to end, with exit code 1; 0: never")
-            ->check(CLI::Range(0.0, 1e6))
+            ->check(number_range(0.0, 1e6))
             ->default_str("0");
     }
     options->flags.add_to(command);

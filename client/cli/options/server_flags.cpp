@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "cli/options/not_empty.hpp"
+#include "cli/options/number_range.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/seconds_option.hpp"
 #include "formats/bytes/byte_cursor.hpp"
@@ -52,7 +53,7 @@ CLI::Option* ServerFlags::add_to(CLI::App& command, const std::string& descripti
     command.add_flag("--insecure", options.insecure, "Let the token travel to another machine without TLS")
         ->needs(server);
     add_seconds(command, "--wait", options.wait, "Seconds to wait for a server that is still starting")
-        ->check(CLI::Range(0.0, 86400.0))
+        ->check(number_range(0.0, 86400.0))
         ->needs(server);
     return server;
 }

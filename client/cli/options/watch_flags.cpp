@@ -8,6 +8,7 @@
 #include "cli/options/codec_option.hpp"
 #include "cli/options/normal_bits.hpp"
 #include "cli/options/normals_by.hpp"
+#include "cli/options/number_range.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/seconds_option.hpp"
 #include "meniscus/error.hpp"
@@ -74,7 +75,7 @@ void WatchFlags::add_to(CLI::App& command) {
     command.add_option("--viewpoint", viewpoint, "X Y Z: the nearest bricks are sent first, world units")->expected(3);
     add_seconds(command, "--reconnect", options.reconnect,
                 "Seconds for which a broken connection or a restarting server is tried again; 0: no retries")
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(number_range(0.0, 1e6))
         ->default_str("0");
 }
 

@@ -10,6 +10,7 @@
 #include "cli/options/named_option.hpp"
 #include "cli/options/normal_bits.hpp"
 #include "cli/options/normals_by.hpp"
+#include "cli/options/number_range.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/policy_options.hpp"
 #include "cli/options/seconds_option.hpp"
@@ -68,7 +69,7 @@ void add_stream_options(CLI::App& command, client::StreamOptions& stream, CLI::O
     stream.reconnect = std::chrono::seconds(30);
     add_seconds(command, "--reconnect", stream.reconnect,
                 "With --server: seconds for which a server that is out of reach is tried again; 0: no retries")
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(number_range(0.0, 1e6))
         ->default_str("30")
         ->needs(&server);
 }

@@ -80,6 +80,22 @@ TEST_F(Cli, AnswersASequenceInAnotherNotationWithItsOwn) {
     }
 }
 
+TEST_F(Cli, RefusesNumbersBeyondTheirRangeAndWhatIsNoNumber) {
+    for (const std::string value : {"1e9", "nan"})
+        for (const auto& [command, range] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+                 {{"info", "--server", "localhost:1", "--wait"}, "0 to 86400"},
+                 {{"top", "--server", "localhost:1", "--interval"}, "0.1 to 3600"},
+                 {{"simulate", "--frames", "1", "--frame-seconds"}, "0.0001 to 1"},
+                 {{"picture", in_, "-o", path("p.png"), "--view", "0"}, "-360 to 360"},
+                 {{"watch", "one", "--server", "localhost:1", "-o", path("w"), "--timeout"}, "0 to 1000000"},
+                 {{"watch", "one", "--server", "localhost:1", "-o", path("w"), "--reconnect"}, "0 to 1000000"}}) {
+            std::vector<std::string> arguments = command;
+            arguments.push_back(value);
+            expect_refused(arguments,
+                           {command.back() == "0" ? "--view" : command.back(), value + " not in range " + range});
+        }
+}
+
 TEST_F(Cli, RefusesOptionsThatAreEmptyInPlaceOfTakingThemAsNotGiven) {
     expect_refused(reconstruct({"--server", ""}), {"--server", "empty", "HOST:PORT"});
     expect_refused({"info", "--server", ""}, {"--server", "empty", "HOST:PORT"});
