@@ -136,6 +136,7 @@ BAD = {
     "an attribute of fewer": lambda s: s.update(attributes=[("v", s["attributes"][0][1][:-1].copy())]),
     "an attribute of float64": lambda s: s.update(attributes=[("v", s["attributes"][0][1].astype(float))]),
     "an attribute that is none": lambda s: s.update(attributes=[("v", None)]),
+    "a cell size below zero": lambda s: s.update(cell_size=-0.5),
     "a cell size that is no number": lambda s: s.update(cell_size=float("nan")),
     "offsets of many bits": lambda s: s.update(offset_bits=40),
     "other figures": lambda s: s.update(figures=b"\xff\xff\xff"),

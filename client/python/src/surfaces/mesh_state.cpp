@@ -146,7 +146,8 @@ MeshHandle mesh_of_state(const py::dict& state) {
     Mesh& mesh = *made;
     mesh.cell_size = value<double>(state, "cell_size");
     mesh.offset_bits = value<std::uint32_t>(state, "offset_bits");
-    if (!std::isfinite(mesh.cell_size) || mesh.offset_bits > max_offset_bits) refuse("its lattice is none");
+    if (!std::isfinite(mesh.cell_size) || mesh.cell_size <= 0.0 || mesh.offset_bits > max_offset_bits)
+        refuse("its lattice is none");
     take<std::int32_t>(state, "lattice", mesh.vertices);
     take<std::uint32_t>(state, "triangles", mesh.triangles);
     const bool has_normals = !part(state, "normals").is_none();
