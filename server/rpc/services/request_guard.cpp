@@ -147,7 +147,9 @@ void RequestGuard::begin(GuardedCall& call) {
     {
         const std::lock_guard lock(mutex_);
         std::shared_ptr<GuardedConnection> connection = connections_[peer].lock();
-        if (!connection) {
+        std::optional<std::uint64_t> bytes = connection ? connection->received() : std::nullopt;
+        // Where there are none, it has gone, and its peer may have come again while calls of it are still ending.
+        if (!bytes) {
             ReceivedBytes received = find_(peer);
             if (!received) {
                 connections_.erase(peer);
@@ -155,8 +157,9 @@ void RequestGuard::begin(GuardedCall& call) {
             }
             connection = std::make_shared<GuardedConnection>(std::move(received));
             connections_[peer] = connection;
+            bytes = connection->received();
         }
-        call.received_ = connection->received().value_or(0);
+        call.received_ = bytes.value_or(0);
         call.given_ = connection->given;
         call.begun_ = ++connection->begun;
         call.cancel_.emplace(static_cast<grpc::CallbackServerContext&>(context));
