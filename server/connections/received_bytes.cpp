@@ -30,8 +30,10 @@ void ReceivedBytesOfPeers::enter(int descriptor, const sockaddr& peer) {
                                                       : reinterpret_cast<const sockaddr_in&>(peer).sin_port;
     std::string name = PeerAddress(peer).text() + ' ' + std::to_string(ntohs(port));
     const std::lock_guard lock(mutex_);
+    // The number is free again, so its connection is gone. The peer may have come again, by another one.
     std::string& before = names_[descriptor];
-    connections_.erase(before);
+    const auto gone = connections_.find(before);
+    if (gone != connections_.end() && gone->second.descriptor == descriptor) connections_.erase(gone);
     connections_[name] = {.descriptor = descriptor, .inode = inode_of(descriptor)};
     before = std::move(name);
 }

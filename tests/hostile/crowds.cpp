@@ -57,4 +57,13 @@ Case clumps_among_small(Field field, int number, int half) {
     return mixed;
 }
 
+void send(client::Client& client, const std::string& session, const Case& attack) {
+    client::Stream stream = client.stream(session, {.receive_meshes = false});
+    ParticleFrame frame;
+    frame.positions = attack.positions;
+    frame.levels = attack.levels;
+    stream.push(frame, 0, 0.0);
+    static_cast<void>(stream.next());
+}
+
 }  // namespace meniscus::hostile

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "meniscus/client/client.hpp"
 #include "meniscus/settings.hpp"
 
 namespace meniscus::hostile {
@@ -33,5 +34,8 @@ struct Case {
 
 /// half particles of level 0, evenly spread, and as many of level 3 in this number of clumps.
 Case clumps_among_small(Field field, int number, int half);
+
+/// Sends the frame alone, and waits for its answer. Throws as a stream does for one that is refused or stopped.
+void send(client::Client& client, const std::string& session, const Case& attack);
 
 }  // namespace meniscus::hostile

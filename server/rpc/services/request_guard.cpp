@@ -57,7 +57,8 @@ public:
             const std::lock_guard lock(mutex_);
             stopping_ = true;
         }
-        changed_.notify_all();
+        begun_.notify_all();
+        stopped_.notify_all();
         thread_.join();
     }
     RequestGuard(const RequestGuard&) = delete;
@@ -83,8 +84,9 @@ private:
     const std::size_t message_bytes_;
     LineLimit lines_;  ///< of the log
 
-    std::mutex mutex_;  ///< for what follows
-    std::condition_variable changed_;
+    std::mutex mutex_;                 ///< for what follows
+    std::condition_variable begun_;    ///< for the thread that has no call to look at
+    std::condition_variable stopped_;  ///< and for that which looks now and then: calls that begin do not wake it
     std::map<std::string, std::weak_ptr<GuardedConnection>> connections_;  ///< by their peers
     std::unordered_set<GuardedCall*> waiting_;                             ///< for their first message
     std::optional<std::chrono::steady_clock::time_point> trim_at_;
@@ -98,6 +100,7 @@ public:
     GuardedCall(RequestGuard& guard, grpc::experimental::ServerRpcInfo& info)
         : info_(info), is_upload_(info.method() == stream_method), guard_(guard) {}
     ~GuardedCall() override {
+        if (!connection_) return;
         guard_.end(*this);
         connection_.reset();
         guard_.forget(peer_);
@@ -141,11 +144,12 @@ private:
 void RequestGuard::begin(GuardedCall& call) {
     grpc::ServerContextBase& context = *call.info_.server_context();
     const std::string peer = context.peer();
-    bool wake = false;
     {
         const std::lock_guard lock(mutex_);
         std::shared_ptr<GuardedConnection> connection = connections_[peer].lock();
-        if (!connection) {
+        std::optional<std::uint64_t> bytes = connection ? connection->received() : std::nullopt;
+        // Where there are none, it has gone, and its peer may have come again while calls of it are still ending.
+        if (!bytes) {
             ReceivedBytes received = find_(peer);
             if (!received) {
                 connections_.erase(peer);
@@ -153,8 +157,9 @@ void RequestGuard::begin(GuardedCall& call) {
             }
             connection = std::make_shared<GuardedConnection>(std::move(received));
             connections_[peer] = connection;
+            bytes = connection->received();
         }
-        call.received_ = connection->received().value_or(0);
+        call.received_ = bytes.value_or(0);
         call.given_ = connection->given;
         call.begun_ = ++connection->begun;
         call.cancel_.emplace(static_cast<grpc::CallbackServerContext&>(context));
@@ -162,10 +167,9 @@ void RequestGuard::begin(GuardedCall& call) {
         ++connection->waiting;
         call.peer_ = peer;
         call.connection_ = std::move(connection);
-        wake = waiting_.empty();
         waiting_.insert(&call);
     }
-    if (wake) changed_.notify_all();
+    begun_.notify_all();
 }
 
 void RequestGuard::leave(GuardedCall& call) {
@@ -199,25 +203,28 @@ void RequestGuard::forget(const std::string& peer) {
 }
 
 void RequestGuard::run() {
+    using Clock = std::chrono::steady_clock;
     std::unique_lock lock(mutex_);
+    Clock::duration taken{};  // by the last look
     while (!stopping_) {
-        if (trim_at_ && std::chrono::steady_clock::now() >= *trim_at_) {
+        if (trim_at_ && Clock::now() >= *trim_at_) {
             trim_at_.reset();
             lock.unlock();
             return_free_pages();
             lock.lock();
         }
-        const auto began = std::chrono::steady_clock::now();
-        look();
-        // However many connections there are, a fifth of a processor at most.
-        const auto pause =
-            std::max<std::chrono::steady_clock::duration>(interval, 4 * (std::chrono::steady_clock::now() - began));
-        if (!waiting_.empty())
-            changed_.wait_for(lock, pause, [this] { return stopping_; });
-        else if (trim_at_)
-            changed_.wait_until(lock, *trim_at_, [this] { return stopping_ || !waiting_.empty(); });
-        else
-            changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+        const auto has_work = [this] { return stopping_ || !waiting_.empty(); };
+        if (!waiting_.empty()) {
+            // However many connections there are, a fifth of a processor at most.
+            stopped_.wait_for(lock, std::max<Clock::duration>(interval, 4 * taken), [this] { return stopping_; });
+            const auto began = Clock::now();
+            look();
+            taken = Clock::now() - began;
+        } else if (trim_at_) {
+            begun_.wait_until(lock, *trim_at_, has_work);
+        } else {
+            begun_.wait(lock, has_work);
+        }
     }
 }
 

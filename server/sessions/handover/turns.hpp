@@ -17,7 +17,7 @@ namespace meniscus::server {
 
 /// One turn at a time. Names take turns, and so do the sessions of each name: a name with many sessions has no more
 /// turns than one with a single session. A session asks for one turn per frame. A turn that lasts for long is over once
-/// somebody waits: the next one begins, and both go on side by side.
+/// somebody waits and there is room for two: the next one begins, and both go on side by side.
 class Turns {
 public:
     using Clock = std::chrono::steady_clock;

@@ -50,6 +50,9 @@ class BytesInFlight {
 public:
     using Clock = std::chrono::steady_clock;
 
+    /// After which a frame is next, and for which it may be so while its own bytes are on their way.
+    static constexpr std::chrono::seconds patience{1};
+
     /// limit: bytes, 0 for none. sessions: as many have a share; 0: none has one, as there may be any number. now: the
     /// clock, called with the lock held.
     explicit BytesInFlight(std::size_t limit = 0, std::uint32_t sessions = 0,
@@ -64,16 +67,13 @@ public:
     std::size_t waiting() const;
     /// Whether frames of other sessions wait for bytes.
     bool others_wait(const SessionInFlight& session) const;
-    /// Books for frames that another one has kept from beginning, and does no longer, as time has passed. Call it every
-    /// second or so.
+    /// Books for frames that another one has kept from beginning, and does no longer, as time has passed. Call it once
+    /// within each patience or so.
     void look_again();
 
 private:
     friend class FrameInFlight;
     using Calls = std::vector<std::function<void()>>;
-
-    /// After which a frame is next, and for which it may be so while its own bytes are on their way.
-    static constexpr Clock::duration patience = std::chrono::seconds(1);
 
     // With the lock held.
     bool grant(FrameInFlight& frame);

@@ -28,19 +28,22 @@ BackendOptions with_limits(BackendOptions backend, const Limits& limits) {
     return backend;
 }
 
-/// Often enough that nothing is kept for much longer than the limit says; 0 if none says anything.
+/// Often enough that nothing is kept for much longer than the limit says, and no frame waits for much longer than
+/// BytesInFlight's patience before it is next; 0 if nothing has a limit.
 std::chrono::milliseconds idle_check_interval(const Limits& limits) {
-    auto shortest = std::chrono::milliseconds::max();
+    using std::chrono::milliseconds;
+    auto interval = milliseconds::max();
     for (const auto time : {limits.idle_time, limits.orphan_time, limits.ephemeral_time, limits.idle_buffers_time,
                             limits.least_pace.time})
-        if (time.count() != 0) shortest = std::min(shortest, time);
-    if (limits.bytes_in_flight != 0) shortest = std::min(shortest, 4 * std::chrono::milliseconds(1000));
-    if (shortest == std::chrono::milliseconds::max()) return {};
-    return std::clamp(shortest / 4, std::chrono::milliseconds(10), std::chrono::milliseconds(10'000));
+        if (time.count() != 0) interval = std::min(interval, time / 4);
+    if (limits.bytes_in_flight != 0) interval = std::min<milliseconds>(interval, BytesInFlight::patience);
+    if (interval == milliseconds::max()) return {};
+    return std::clamp(interval, milliseconds(10), milliseconds(10'000));
 }
 
-/// For which a frame has the processors alone while others wait. Afterwards they have their turns beside it, and no
-/// frame is stopped that needs its time. Not on a GPU, whose memory few frames leave room in.
+/// For which a frame has the processors alone while others wait. Afterwards they have their turns beside it, if half
+/// of the memory is free, and no frame is stopped that needs its time. Not on a GPU, whose memory few frames leave room
+/// in.
 constexpr std::chrono::seconds longest_turn{4};
 
 std::string place_name(const BackendOptions& backend) {

@@ -55,12 +55,7 @@ double wait_beside(const std::string& address, const Case& attack) {
     std::atomic<bool> over{false};
     std::thread attacking([&] {
         try {
-            client::Stream stream = attacker.stream(attackers, {.receive_meshes = false});
-            ParticleFrame frame;
-            frame.positions = attack.positions;
-            frame.levels = attack.levels;
-            stream.push(frame, 0, 0.0);
-            static_cast<void>(stream.next());
+            send(attacker, attackers, attack);
         } catch (const std::exception&) {
             // Refused, stopped, or given up.
         }

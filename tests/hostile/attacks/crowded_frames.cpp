@@ -74,12 +74,7 @@ double seconds_of(client::Client& client, const Case& frame_of) {
     client.create_session(id, frame_of.settings);
     const auto start = Clock::now();
     try {
-        client::Stream stream = client.stream(id, {.receive_meshes = false});
-        ParticleFrame frame;
-        frame.positions = frame_of.positions;
-        frame.levels = frame_of.levels;
-        stream.push(frame, 0, 0.0);
-        static_cast<void>(stream.next());
+        send(client, id, frame_of);
     } catch (const LimitExceeded&) {
         // Refused or stopped.
     }

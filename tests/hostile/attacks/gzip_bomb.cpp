@@ -7,27 +7,20 @@
 #include "../attacks.hpp"
 #include "../one_message.hpp"
 #include "../target.hpp"
+#include "large_message.hpp"
 
 namespace meniscus::hostile {
 
 namespace {
 
-constexpr std::size_t mebibyte = 1 << 20;
-constexpr std::size_t bomb_mebibytes = 512;
+constexpr std::size_t bomb_mebibytes = 512;  ///< half a megabyte on the wire
 constexpr int clients = 5;
-
-/// Half a megabyte on the wire.
-grpc::ByteBuffer zeros() {
-    const std::vector<char> bytes(mebibyte, '\0');
-    const std::vector<grpc::Slice> slices(bomb_mebibytes, grpc::Slice(bytes.data(), bytes.size()));
-    return {slices.data(), slices.size()};
-}
 
 }  // namespace
 
 std::vector<Figure> gzip_bomb(const std::string& program) {
     Target target(program);
-    const grpc::ByteBuffer bomb = zeros();
+    const grpc::ByteBuffer bomb = server::test::mebibytes_of_zeros(bomb_mebibytes);
     const double before = static_cast<double>(target.peak_bytes());
     std::vector<std::thread> threads;
     threads.reserve(clients);

@@ -10,6 +10,7 @@
 #include "../attacks.hpp"
 #include "../one_message.hpp"
 #include "../target.hpp"
+#include "large_message.hpp"
 #include "meniscus/client/client.hpp"
 
 namespace meniscus::hostile {
@@ -21,19 +22,12 @@ constexpr int at_a_time = 3;
 constexpr const char* methods[] = {"/meniscus.v1.SessionService/ListSessions", "/meniscus.v1.SurfaceService/Watch",
                                    "/meniscus.v1.SurfaceService/Stream"};
 
-grpc::ByteBuffer huge() {
-    static const std::vector<char> bytes(1 << 20, '\0');
-    const grpc::Slice slice(bytes.data(), bytes.size(), grpc::Slice::STATIC_SLICE);
-    const std::vector<grpc::Slice> slices(mebibytes, slice);
-    return {slices.data(), slices.size()};
-}
-
 }  // namespace
 
 std::vector<Figure> large_requests(const std::string& program) {
     // Without tokens everybody is admitted.
     const Target target(program);
-    const grpc::ByteBuffer message = huge();
+    const grpc::ByteBuffer message = server::test::mebibytes_of_zeros(mebibytes);
     client::Client honest(target.address());
     double slowest = 0.0;
     const double before = static_cast<double>(target.peak_bytes());

@@ -13,12 +13,12 @@
 #include "../one_message.hpp"
 #include "../recorded_session.hpp"
 #include "../target.hpp"
+#include "large_message.hpp"
 
 namespace meniscus::hostile {
 
 namespace {
 
-constexpr std::size_t mebibyte = 1 << 20;
 constexpr std::size_t mebibytes = 512;
 constexpr int rounds = 3;
 constexpr const char* answered_methods[] = {
@@ -37,14 +37,6 @@ std::string tokens_file(const Folder& folder) {
     return path.string();
 }
 
-/// Slices of the same bytes: the attacker needs no memory for them.
-grpc::ByteBuffer huge() {
-    static const std::vector<char> bytes(mebibyte, '\0');
-    const grpc::Slice slice(bytes.data(), bytes.size(), grpc::Slice::STATIC_SLICE);
-    const std::vector<grpc::Slice> slices(mebibytes, slice);
-    return {slices.data(), slices.size()};
-}
-
 }  // namespace
 
 std::vector<Figure> unread_requests(const std::string& program) {
@@ -52,7 +44,7 @@ std::vector<Figure> unread_requests(const std::string& program) {
     TargetOptions options;
     options.arguments = {"--tokens", tokens_file(folder), "--record", (folder.path() / "recordings").string()};
     const Target target(program, options);
-    const grpc::ByteBuffer message = huge();
+    const grpc::ByteBuffer message = server::test::mebibytes_of_zeros(mebibytes);
     const double before = static_cast<double>(target.peak_bytes());
     std::atomic<int> failed{0};
     std::vector<std::thread> threads;

@@ -1,5 +1,4 @@
 // Calls with one request: as gRPC's own clients never make them.
-#include <grpcpp/generic/generic_stub.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "observation/metrics.hpp"
+#include "raw_call.hpp"
 #include "rpc/calls/one_request.hpp"
 #include "running_server.hpp"
 #include "test_folder.hpp"
@@ -25,48 +25,8 @@ constexpr const char* methods[] = {
     "/meniscus.v1.RecordingService/ReadRecording", "/meniscus.v1.RecordingService/DeleteRecording",
 };
 
-/// A call that has begun; its request is up to the test.
-class OpenCall {
-public:
-    OpenCall(const client::Connection& connection, const char* method) : stub_(connection.channel) {
-        client::add_session_id(context_, "00000000-0000-4000-8000-000000000000");
-        call_ = stub_.PrepareCall(&context_, method, &queue_);
-        call_->StartCall(this);
-        wait();
-    }
-
-    void send(const std::string& bytes) {
-        const grpc::Slice slice(bytes);
-        call_->WriteLast({&slice, 1}, {}, this);
-        wait();
-    }
-    void send_no_more() {
-        call_->WritesDone(this);
-        wait();
-    }
-    void cancel() { context_.TryCancel(); }
-    grpc::Status end() {
-        grpc::ByteBuffer message;
-        do call_->Read(&message, this);
-        while (wait());
-        grpc::Status status;
-        call_->Finish(&status, this);
-        wait();
-        return status;
-    }
-
-private:
-    bool wait() {
-        void* tag = nullptr;
-        bool ok = false;
-        return queue_.Next(&tag, &ok) && ok;
-    }
-
-    grpc::GenericStub stub_;
-    grpc::ClientContext context_;
-    grpc::CompletionQueue queue_;
-    std::unique_ptr<grpc::GenericClientAsyncReaderWriter> call_;
-};
+/// The id of a session that is not there.
+constexpr const char* no_session = "00000000-0000-4000-8000-000000000000";
 
 /// A server that has every call, and its metrics.
 struct OneRequest : testing::Test {
@@ -84,7 +44,7 @@ struct OneRequest : testing::Test {
 
 TEST_F(OneRequest, ThatNeverComesIsRefusedInWords) {
     for (const char* method : methods) {
-        OpenCall call(connection, method);
+        RawCall call(connection, method, no_session);
         call.send_no_more();
         const grpc::Status status = call.end();
         EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT) << method;
@@ -94,7 +54,7 @@ TEST_F(OneRequest, ThatNeverComesIsRefusedInWords) {
 
 TEST_F(OneRequest, HasALimit) {
     for (const char* method : methods) {
-        OpenCall call(connection, method);
+        RawCall call(connection, method, no_session);
         call.send(std::string(max_request_bytes + 1, '\0'));
         const grpc::Status status = call.end();
         EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED) << method;
@@ -105,7 +65,7 @@ TEST_F(OneRequest, HasALimit) {
 TEST_F(OneRequest, MayBeAsLargeAsItsLimit) {
     std::string field = "\xfa\x7f\xfb\xff\x03";  // a field that no version knows, and its 65531 bytes
     field.resize(max_request_bytes, 'x');
-    OpenCall call(connection, "/meniscus.v1.SessionService/ListSessions");
+    RawCall call(connection, "/meniscus.v1.SessionService/ListSessions", no_session);
     call.send(field);
     const grpc::Status status = call.end();
     EXPECT_TRUE(status.ok()) << status.error_message();
@@ -113,18 +73,18 @@ TEST_F(OneRequest, MayBeAsLargeAsItsLimit) {
 
 TEST_F(OneRequest, ThatIsLargerThanAnyMessageIsRefused) {
     for (const char* method : methods) {
-        OpenCall call(connection, method);
+        RawCall call(connection, method, no_session);
         call.send(std::string(std::size_t{5} << 20U, '\0'));
         EXPECT_EQ(call.end().error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED) << method;
     }
 }
 
 TEST_F(OneRequest, NeedNotComeWhereTheCallIsCanceled) {
-    std::vector<std::unique_ptr<OpenCall>> calls;
-    for (const char* method : methods) calls.push_back(std::make_unique<OpenCall>(connection, method));
+    std::vector<std::unique_ptr<RawCall>> calls;
+    for (const char* method : methods) calls.push_back(std::make_unique<RawCall>(connection, method, no_session));
     // Behind them on the same connection: its answer shows that they have begun.
-    OpenCall last(connection, methods[0]);
-    last.send({});
+    RawCall last(connection, methods[0], no_session);
+    last.send(std::string());
     EXPECT_TRUE(last.end().ok());
     for (const auto& call : calls) call->cancel();
     for (const auto& call : calls) EXPECT_EQ(call->end().error_code(), grpc::StatusCode::CANCELLED);
@@ -136,8 +96,8 @@ TEST_F(OneRequest, NeedNotComeWhereTheCallIsCanceled) {
 }
 
 TEST_F(OneRequest, ThatDoesNotComeHoldsNoServerUp) {
-    std::vector<std::unique_ptr<OpenCall>> calls;
-    for (const char* method : methods) calls.push_back(std::make_unique<OpenCall>(connection, method));
+    std::vector<std::unique_ptr<RawCall>> calls;
+    for (const char* method : methods) calls.push_back(std::make_unique<RawCall>(connection, method, no_session));
     const auto begin = std::chrono::steady_clock::now();
     running.server.shutdown();
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));

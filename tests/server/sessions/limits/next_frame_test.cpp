@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "sessions/limits/bytes_in_flight.hpp"
+#include "sessions/limits/frame_sender.hpp"
 
 namespace meniscus::server {
 namespace {
@@ -22,6 +23,7 @@ namespace {
 using Clock = BytesInFlight::Clock;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using test::Sender;
 
 /// The bytes in flight with a clock that stands still until it is moved.
 struct DrivenBytes {
@@ -38,41 +40,13 @@ struct DrivenBytes {
     const std::shared_ptr<BytesInFlight> all;
 };
 
-/// A stream of the session that sends a frame.
-struct Stream {
-    explicit Stream(const DrivenBytes& bytes,
-                    std::shared_ptr<SessionInFlight> session = std::make_shared<SessionInFlight>())
-        : frame(bytes.all, std::move(session)) {}
-
-    void begin(std::size_t bytes) {
-        announced = bytes;
-        arrived = 0;
-        frame.announce(bytes);
-        book();
-    }
-    void arrive(std::size_t bytes) {
-        arrived += bytes;
-        book();
-    }
-    void book() {
-        waits = true;
-        if (frame.book(arrived, [this] { waits = false; })) waits = false;
-    }
-    bool whole() const { return !waits && arrived == announced; }
-
-    FrameInFlight frame;
-    std::size_t announced = 0;
-    std::size_t arrived = 0;
-    bool waits = false;
-};
-
 // A limit of 1000 bytes among 4 sessions: shares of 62 bytes, and 752 in common.
 struct NextFrame : testing::Test, DrivenBytes {
     NextFrame() : DrivenBytes(1000, 4) {}
 
-    Stream one{*this};
-    Stream another{*this};
-    Stream late{*this};
+    Sender one{all};
+    Sender another{all};
+    Sender late{all};
 };
 
 TEST_F(NextFrame, IsTheOneThatHasWaitedForASecondAndNoOtherBeginsBeforeIt) {
@@ -169,8 +143,8 @@ TEST_F(NextFrame, IsNoneThatWaitsForItsNamesShare) {
     const auto name = std::make_shared<NameInFlight>();
     name->limit = 800;
     const auto of_the_name = [&] { return std::make_shared<SessionInFlight>(SessionInFlight{.name = name}); };
-    Stream first(*this, of_the_name());
-    Stream second(*this, of_the_name());
+    Sender first(all, of_the_name());
+    Sender second(all, of_the_name());
     first.begin(200);
     first.arrive(200);
     second.begin(700);
@@ -182,7 +156,7 @@ TEST_F(NextFrame, IsNoneThatWaitsForItsNamesShare) {
 }
 
 TEST_F(NextFrame, IsTheOldestOfThoseThatHaveWaited) {
-    Stream second(*this);
+    Sender second(all);
     one.begin(600);
     one.arrive(600);
     another.begin(900);
@@ -215,7 +189,7 @@ public:
         std::optional<std::size_t> sends;  ///< slot
         Clock::duration longest_wait{};    ///< from the announcement to the last byte
         Clock::time_point began{};
-        std::deque<Stream> slots;
+        std::deque<Sender> slots;
         std::array<bool, 2> used{};
     };
 
@@ -223,7 +197,7 @@ public:
         Session& session = sessions_.emplace_back();
         session.bytes = bytes;
         session.most = most;
-        for (std::size_t i = 0; i < 2; ++i) session.slots.emplace_back(bytes_, session.shared);
+        for (std::size_t i = 0; i < 2; ++i) session.slots.emplace_back(bytes_.all, session.shared);
         return session;
     }
     void run(
@@ -248,13 +222,13 @@ private:
             session.began = bytes_.now;
             session.slots[*session.sends].begin(session.bytes);
         }
-        Stream& stream = session.slots[*session.sends];
+        Sender& stream = session.slots[*session.sends];
         if (stream.whole()) {
             session.longest_wait = std::max(session.longest_wait, bytes_.now - session.began);
             arrived_.push_back({&session, *session.sends});
             session.sends.reset();
         } else if (!stream.waits && bytes_.now.time_since_epoch() % a_piece_takes == milliseconds(0)) {
-            stream.arrive(std::min(piece, stream.announced - stream.arrived));
+            stream.arrive(piece);
         }
     }
     void work() {
@@ -337,10 +311,10 @@ private:
         World(std::uint32_t sessions, std::size_t limit) : bytes(limit, sessions) {
             const auto session = std::make_shared<SessionInFlight>();
             for (int i = 0; i < 3; ++i)
-                streams.emplace_back(bytes, sessions != 0 ? session : std::make_shared<SessionInFlight>());
+                streams.emplace_back(bytes.all, sessions != 0 ? session : std::make_shared<SessionInFlight>());
         }
         DrivenBytes bytes;
-        std::deque<Stream> streams;
+        std::deque<Sender> streams;
         std::array<Stage, 3> stages{};
         std::array<int, 3> waited{};  ///< 1: for a second
         std::array<int, 3> sent{};    ///< likewise
@@ -359,7 +333,7 @@ private:
                 world->bytes.pass(seconds(1));
             } else {
                 const auto i = static_cast<std::size_t>(event - '0');
-                Stream& stream = world->streams[i];
+                Sender& stream = world->streams[i];
                 if (world->stages[i] == Stage::idle) {
                     world->stages[i] = Stage::comes;
                     stream.begin(sizes_[i]);
@@ -389,7 +363,7 @@ private:
     static std::string key_of(const World& world, const std::string& path) {
         std::string key;
         for (std::size_t i = 0; i < 3; ++i) {
-            const Stream& stream = world.streams[i];
+            const Sender& stream = world.streams[i];
             for (const int part : {static_cast<int>(world.stages[i]), static_cast<int>(stream.arrived),
                                    stream.waits ? 1 : 0, world.waited[i], world.sent[i]})
                 key += static_cast<char>('0' + part);
