@@ -16,14 +16,13 @@ import { ColoredMaterial } from './colored_material';
 import { cutPlane, type Cut } from './cut';
 import { CutFace } from './cut_face';
 import { DomainBox } from './domain_box';
-import { environmentUniforms, setTheme, type Theme } from './environment';
+import { environmentUniforms, layFloor, setTheme, type Theme } from './environment';
 import { putInTheMiddle, type Margins } from './fit';
 import { FollowingCamera, type Sight } from './following_camera';
 import { levelLineMaterials, levelSurfaceMaterial, plainLineMaterials } from './level_materials';
 import { occupied } from './occupied';
 import { ParticleCloud } from './particle_cloud';
 import { pick, type Pick } from './pick';
-import { roundLength } from './scale_bar';
 import { SprayCloud } from './spray_cloud';
 import { Sunlight } from './sunlight';
 import { pictureLayer, ThicknessPass, waterLayer } from './thickness_pass';
@@ -54,8 +53,6 @@ export interface ViewerEvents {
 
 /** Pixels of the screen per pixel of the water's thickness, on each axis. */
 const thicknessCoarseness = 2;
-/** Of the mesh's diagonal, at most: the way from one line of the floor to the next. */
-const gridPart = 0.15;
 
 export class Viewer {
   private readonly renderer: WebGLRenderer;
@@ -182,10 +179,7 @@ export class Viewer {
   /** The floor alone, until there is something. */
   private lookAtNothing(): void {
     this.origin = [0, 0, 0];
-    this.environment.floorCenter.value.set(0, 0, 0);
-    this.environment.sceneSize.value = 1;
-    this.environment.gridOrigin.value.set(0, 0, 0);
-    this.environment.gridStep.value = roundLength(gridPart);
+    layFloor(this.environment, 1, 0, new Vector3());
     this.followingCamera.lookAtNothing();
     this.placeInScene();
   }
@@ -382,15 +376,9 @@ export class Viewer {
     this.showSpray();
     this.placeInScene();
     this.followingCamera.moveTo(cameraPlace);
-    this.environment.sceneSize.value = size(box);
     this.setReach();
-    // Under the lowest corner, whichever axis is up.
-    this.environment.floorCenter.value.set(0, this.inScene(box.min).y, 0);
-    // The floor's lines lie at round lengths, and stay while the water moves.
-    const step = roundLength(gridPart * (size(box) || 1));
-    const { x, z } = this.inScene([0, 0, 0]);
-    this.environment.gridStep.value = step;
-    this.environment.gridOrigin.value.set(x % step, 0, z % step);
+    // Under the lowest corner, whichever axis is up. Its lines stay while the water moves.
+    layFloor(this.environment, size(box), this.inScene(box.min).y, this.inScene([0, 0, 0]));
   }
 
   private setReach(): void {
