@@ -4,6 +4,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { describe, it } from 'node:test';
 import { missing } from './support/browser.mjs';
+import { pixelsOf } from './support/pictures.mjs';
 import { startServer, startUploader } from './support/programs.mjs';
 import { recordedFile, startReplay } from './support/recording.mjs';
 import { open, shown, surface } from './support/viewer.mjs';
@@ -37,17 +38,7 @@ function hasAsked(answer, ...codecs) {
 async function difference(a, b) {
   const page = await open(undefined, small);
   return page.evaluate(
-    async (pictures) => {
-      const [one, other] = await Promise.all(
-        pictures.map(async (base64) => {
-          const image = new Image();
-          image.src = `data:image/png;base64,${base64}`;
-          await image.decode();
-          const canvas = new OffscreenCanvas(image.width, image.height).getContext('2d');
-          canvas.drawImage(image, 0, 0);
-          return canvas.getImageData(0, 0, image.width, image.height).data;
-        }),
-      );
+    ([{ data: one }, { data: other }]) => {
       let most = 0;
       let sum = 0;
       let pixels = 0;
@@ -59,7 +50,7 @@ async function difference(a, b) {
       }
       return { most, mean: (4 * sum) / one.length, pixels };
     },
-    [a, b].map((png) => png.toString('base64')),
+    await pixelsOf(page, a, b),
   );
 }
 

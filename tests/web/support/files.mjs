@@ -1,5 +1,6 @@
 // The files that the viewer saves.
 import { readFileSync } from 'node:fs';
+import { pixelsOf } from './pictures.mjs';
 
 /** Its bytes and its name. */
 export async function save(page, button) {
@@ -10,19 +11,14 @@ export async function save(page, button) {
 /** A PNG's size, and the colors at some places, parts of its width and height. */
 export async function readPng(page, bytes, places) {
   return page.evaluate(
-    async ([base64, at]) => {
-      const blob = new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: 'image/png' });
-      const image = await createImageBitmap(blob);
-      const context = new OffscreenCanvas(image.width, image.height).getContext('2d', {
-        willReadFrequently: true,
+    ([[{ width, height, data }], at]) => {
+      const colors = at.map(([x, y]) => {
+        const first = 4 * (Math.floor(x * width) + width * Math.floor(y * height));
+        return [...data.slice(first, first + 4)];
       });
-      context.drawImage(image, 0, 0);
-      const colors = at.map(([x, y]) => [
-        ...context.getImageData(Math.floor(x * image.width), Math.floor(y * image.height), 1, 1).data,
-      ]);
-      return { width: image.width, height: image.height, colors };
+      return { width, height, colors };
     },
-    [bytes.toString('base64'), places],
+    [await pixelsOf(page, bytes), places],
   );
 }
 

@@ -1,4 +1,21 @@
-// Measures of a picture of water.
+// Pictures by their pixels, and measures of a picture of water.
+
+/** The pixels of PNGs: a handle of an array of ImageData, in the page. */
+export function pixelsOf(page, ...pngs) {
+  return page.evaluateHandle(
+    (pictures) =>
+      Promise.all(
+        pictures.map(async (base64) => {
+          const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+          const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+          const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
+          context.drawImage(image, 0, 0);
+          return context.getImageData(0, 0, image.width, image.height);
+        }),
+      ),
+    pngs.map((png) => png.toString('base64')),
+  );
+}
 
 /** WCAG's contrast of two relative luminances. */
 export function contrast(a, b) {
@@ -10,19 +27,9 @@ export function contrast(a, b) {
  * what lies from 2 to 8 pixels beside it; and the parts of the picture's width and height that the water takes, without the outermost 1 % of it
  * on each side.
  */
-export function measureWater(page, water, wires) {
+export async function measureWater(page, water, wires) {
   return page.evaluate(
-    async (pictures) => {
-      const [one, other] = await Promise.all(
-        pictures.map(async (base64) => {
-          const image = new Image();
-          image.src = `data:image/png;base64,${base64}`;
-          await image.decode();
-          const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
-          context.drawImage(image, 0, 0);
-          return context.getImageData(0, 0, image.width, image.height);
-        }),
-      );
+    ([one, other]) => {
       const { width, height, data } = one;
       const mask = new Uint8Array(width * height);
       for (let i = 0; i < mask.length; ++i)
@@ -66,6 +73,6 @@ export function measureWater(page, water, wires) {
         tall: extent((i) => Math.floor(i / width), height),
       };
     },
-    [water, wires].map((png) => png.toString('base64')),
+    await pixelsOf(page, water, wires),
   );
 }

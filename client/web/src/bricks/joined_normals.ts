@@ -10,14 +10,16 @@ type Place = readonly [number, number, number];
 
 /**
  * The bricks, of which those have new normals whose own triangles or whose neighbors' have changed so that it shows; all
- * others are the same objects. before: those of the frame before, which have been joined; from other lattices, too.
+ * others are the same objects, and so is the map if there are no computed normals to join. before: those of the frame
+ * before, which have been joined; from other lattices, too.
  */
-export function joinNormals(bricks: Map<BrickKey, ShownBrick>, before: Bricks, offsetBits: number): Bricks {
+export function joinNormals(bricks: Bricks, before: Bricks, offsetBits: number): Bricks {
   const stale = new Set<BrickKey>();
   for (const [key, { encoded, decoded }] of bricks)
     if (decoded.border !== before.get(key)?.decoded.border) addPlacesAround(encoded.place, stale);
   for (const [key, { encoded, decoded }] of before)
     if (decoded.border && !bricks.has(key)) addPlacesAround(encoded.place, stale);
+  if (stale.size === 0) return bricks;
   const joined = new Map(bricks);
   for (const key of stale) {
     const brick = bricks.get(key);

@@ -1,4 +1,4 @@
-// Pictures of the sessions in the list, from their newest meshes: one at a time, for what is on the screen.
+// Pictures of the sessions in a list, or of its recordings: one at a time, for what is on the screen.
 import { Code, RpcError } from '../rpc/status';
 import { ThumbnailSchedule } from './thumbnail_schedule';
 

@@ -1,7 +1,8 @@
 // The page's address holds the session or the recording, and the place of the camera.
 import { readRecordingName, recordingNameText, type RecordingName } from '../recordings/recording_name';
 import type { Point } from '../view/bounds';
-import type { CameraPlace, Look } from '../view/viewer';
+import type { CameraPlace } from '../view/camera_place';
+import type { Look } from '../view/viewer';
 import { isAxis, type UpAxis } from '../view/up_axis';
 import { sessionForm } from './session_form';
 import { linkNumber, numbers, readToolsLink, writeToolsLink, type ToolsState } from './tools_link';

@@ -1,7 +1,11 @@
 // Sky, sun and floor, generated: what water reflects and what is seen through it. No file is loaded.
 import { Color, Matrix4, Vector3, type Texture } from 'three';
+import { roundLength } from './scale_bar';
 
 export type Theme = 'light' | 'dark';
+
+/** Of the scene's size, at most: the way from one line of the floor to the next. */
+const gridPart = 0.15;
 
 /** Needs the uniforms of environmentUniforms(). The scene is y-up. */
 export const environmentGlsl = /* glsl */ `
@@ -144,4 +148,13 @@ export function setTheme(uniforms: EnvironmentUniforms, theme: Theme): void {
   for (const [name, color] of Object.entries(colors[theme])) (uniforms[name]!.value as Color).set(color);
   uniforms.sunColor.value.multiplyScalar(3);
   uniforms.leastCover.value = theme === 'light' ? 0.55 : 0.28;
+}
+
+/** Below a scene of this size, its diagonal, at this height. Its lines lie at round lengths. crossing: of two of them, whatever its height. */
+export function layFloor(uniforms: EnvironmentUniforms, sceneSize: number, height: number, crossing: Vector3): void {
+  const step = roundLength(gridPart * (sceneSize || 1));
+  uniforms.sceneSize.value = sceneSize;
+  uniforms.floorCenter.value.set(0, height, 0);
+  uniforms.gridStep.value = step;
+  uniforms.gridOrigin.value.set(crossing.x % step, 0, crossing.z % step);
 }

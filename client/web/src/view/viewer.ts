@@ -7,21 +7,22 @@ import type { Quantity, QuantityKind } from '../color/quantity';
 import type { ValueRange } from '../color/value_range';
 import type { Particles } from '../particles/particles';
 import { Background } from './background';
-import { center, contains, corners, size, union, unionOf, worldBox, type Point, type WorldBox } from './bounds';
+import { center, corners, size, unionOf, worldBox, type Point, type WorldBox } from './bounds';
 import { BrickMeshes } from './brick_meshes';
 import { CameraControls } from './camera_controls';
+import { samePlace, type CameraPlace } from './camera_place';
 import { legendHeight } from './color_legend';
 import { ColoredMaterial } from './colored_material';
 import { cutPlane, type Cut } from './cut';
 import { CutFace } from './cut_face';
 import { DomainBox } from './domain_box';
-import { environmentUniforms, setTheme, type Theme } from './environment';
-import { framing, putInTheMiddle, type Margins } from './fit';
+import { environmentUniforms, layFloor, setTheme, type Theme } from './environment';
+import { putInTheMiddle, type Margins } from './fit';
+import { FollowingCamera, type Sight } from './following_camera';
 import { levelLineMaterials, levelSurfaceMaterial, plainLineMaterials } from './level_materials';
 import { occupied } from './occupied';
 import { ParticleCloud } from './particle_cloud';
 import { pick, type Pick } from './pick';
-import { roundLength } from './scale_bar';
 import { SprayCloud } from './spray_cloud';
 import { Sunlight } from './sunlight';
 import { pictureLayer, ThicknessPass, waterLayer } from './thickness_pass';
@@ -40,11 +41,6 @@ export interface Coloring {
   readonly unlit: boolean;
 }
 
-export interface CameraPlace {
-  readonly position: Point;
-  readonly target: Point;
-}
-
 export interface ViewerEvents {
   /** A picture has been drawn, of a frame or of nothing. The canvas can be read until this returns. */
   rendered(): void;
@@ -57,21 +53,6 @@ export interface ViewerEvents {
 
 /** Pixels of the screen per pixel of the water's thickness, on each axis. */
 const thicknessCoarseness = 2;
-/** From the mesh to a camera that looks at all of it; of a picture that is taller than wide from higher up, so that there is less sky. */
-const fitDirection = new Vector3(0.55, 0.32, 1).normalize();
-const fitDirectionTall = new Vector3(0.55, 0.7, 1).normalize();
-/** ms after which the camera has come two thirds of its way to where the water has gone. */
-const easing = 220;
-/** Parts of the distance: the water may move so far before the camera follows, and so close the camera comes. */
-const slack = 0.04;
-const arrived = 0.005;
-/** ms after which a picture is not the one before the next. */
-const pictureRests = 1000;
-/** Of the mesh's diagonal, at most: the way from one line of the floor to the next. */
-const gridPart = 0.15;
-
-/** Whether a person wants no movement that no hand has made. */
-const calm = matchMedia('(prefers-reduced-motion: reduce)');
 
 export class Viewer {
   private readonly renderer: WebGLRenderer;
@@ -94,6 +75,7 @@ export class Viewer {
   private readonly spray = new SprayCloud();
   private readonly domainBox = new DomainBox();
   readonly controls: CameraControls;
+  private readonly followingCamera: FollowingCamera;
   /** The origin of the scene's coordinates, so that they stay small wherever the water is. */
   private origin: Point = [0, 0, 0];
   private shown: Shown | undefined;
@@ -106,14 +88,6 @@ export class Viewer {
   private scheduled = false;
   /** Since the last picture. */
   private waterChanged = true;
-  /** Around the meshes that the camera has followed, until a person moves it. */
-  private following: WorldBox | undefined;
-  /** From the water to the camera that follows it, in the scene; none: that of fit(). */
-  private direction: Vector3 | undefined;
-  /** The place that the camera that follows is on its way to. */
-  private goal: CameraPlace | undefined;
-  /** The time of the last picture, ms. */
-  private drawnAt = -Infinity;
 
   /** Throws if there is no WebGL 2. */
   constructor(
@@ -143,8 +117,19 @@ export class Viewer {
         this.draw();
       },
       moving: (moving) => {
-        this.stay();
+        this.followingCamera.stay();
         this.events.moving(moving);
+      },
+    });
+    this.followingCamera = new FollowingCamera(this.controls, {
+      inScene: (point) => this.inScene(point),
+      inWorld: (place) => this.inWorld(place),
+      adopt: (box) => {
+        this.adopt(box);
+      },
+      sight: () => this.sight(),
+      draw: () => {
+        this.draw();
       },
     });
     this.controls.camera.layers.enable(pictureLayer);
@@ -164,7 +149,6 @@ export class Viewer {
   /** Back to the empty environment. */
   clear(): void {
     this.shown = undefined;
-    this.stay();
     this.beside = undefined;
     this.bricks.clear();
     this.lookAtNothing();
@@ -181,7 +165,7 @@ export class Viewer {
     else this.bricks.show(shown, this.origin);
     this.showSpray();
     this.waterChanged = true;
-    this.follow(box);
+    this.followingCamera.follow(box);
     this.draw();
   }
 
@@ -189,35 +173,14 @@ export class Viewer {
   setBeside(box: WorldBox | undefined): void {
     this.beside = box;
     this.setReach();
-    this.follow(box);
-  }
-
-  /** The camera stays with what is seen of the water, as it goes. */
-  private follow(box: WorldBox | undefined): void {
-    if (!box || !this.following) return;
-    if (!contains(this.following, box)) {
-      this.following = union(this.following, box);
-      this.adopt(this.following);
-    }
-    const place = this.placeToSee();
-    if (this.goal && place && apart(place, this.goal) < slack * lengthOf(place)) return;
-    this.goal = place;
-  }
-
-  /** It does not follow any more. */
-  private stay(): void {
-    this.following = undefined;
-    this.goal = undefined;
+    this.followingCamera.follow(box);
   }
 
   /** The floor alone, until there is something. */
   private lookAtNothing(): void {
     this.origin = [0, 0, 0];
-    this.environment.floorCenter.value.set(0, 0, 0);
-    this.environment.sceneSize.value = 1;
-    this.environment.gridOrigin.value.set(0, 0, 0);
-    this.environment.gridStep.value = roundLength(gridPart);
-    this.controls.place(fitDirection.clone().multiplyScalar(2), new Vector3());
+    layFloor(this.environment, 1, 0, new Vector3());
+    this.followingCamera.lookAtNothing();
     this.placeInScene();
   }
 
@@ -295,11 +258,11 @@ export class Viewer {
   /** The camera stays where it is, unless it follows the mesh. */
   setUp(up: UpAxis): void {
     if (up === this.up) return;
-    const { cameraPlace, following } = this;
+    const { cameraPlace } = this;
     this.up = up;
     turnUp(this.bricks.group, up);
     this.adopt(this.box);
-    if (following) this.fit();
+    if (this.followingCamera.follows) this.fit();
     else this.cameraPlace = cameraPlace;
   }
 
@@ -372,103 +335,54 @@ export class Viewer {
 
   /** Looks at all of the mesh, also as it spreads, until a person moves the camera. */
   fit(): void {
-    this.lookFrom(undefined);
+    this.followingCamera.fit(this.boxInView);
   }
 
   /** The same, along an axis: from its positive end; from there, from its negative one. */
   lookAlong(axis: Axis): void {
-    const direction = toScene(alongAxis(axis), [0, 0, 0], this.up);
-    if (this.following && this.direction && this.direction.dot(direction) > 0.99) direction.negate();
-    // A view straight up or down has no right and left.
-    if (direction.y !== 0) direction.z += 1e-3;
-    this.lookFrom(direction.normalize());
+    this.followingCamera.lookAlong(toScene(alongAxis(axis), [0, 0, 0], this.up), this.boxInView);
   }
 
-  private lookFrom(direction: Vector3 | undefined): void {
-    this.direction = direction;
-    const box = unionOf([this.box, this.beside]);
-    if (!box) return;
-    this.following = box;
-    this.adopt(box);
-    this.lookAgain();
+  /** Around all that is to be kept in view. */
+  private get boxInView(): WorldBox | undefined {
+    return unionOf([this.box, this.beside]);
   }
 
-  /** At once. */
-  private lookAgain(): void {
-    const place = this.placeToSee();
-    if (!place) return;
-    this.goal = place;
-    this.controls.place(this.inScene(place.position), this.inScene(place.target));
-    this.draw();
-  }
-
-  /** From where what matters of the mesh is seen, beside what covers the picture; none where there is no mesh. */
-  private placeToSee(): CameraPlace | undefined {
+  /** What matters of the mesh, and the box beside it. */
+  private sight(): Sight {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const points = this.shown ? occupied(this.shown).map((point) => this.inScene(point)) : [];
-    const beside = this.beside ? corners(this.beside).map((corner) => this.inScene(corner)) : [];
-    if (points.length + beside.length === 0 || width === 0 || height === 0) return undefined;
-    const { top, right, bottom } = this.margins;
-    const free = {
-      width: Math.max(0.2, 1 - right / width),
-      height: Math.max(0.2, 1 - (top + bottom) / height),
-    };
-    const direction =
-      this.direction ?? (free.width * width < 0.8 * free.height * height ? fitDirectionTall : fitDirection);
-    const { target, distance } = framing(points.length > 0 ? points : beside, beside, direction, this.camera, free);
-    return {
-      position: this.inWorld(target.clone().addScaledVector(direction, distance)),
-      target: this.inWorld(target),
-    };
-  }
-
-  /** A step of the camera that follows, if it is not there yet. now: ms. */
-  private step(now: number): void {
-    const { goal, cameraPlace } = this;
-    const since = now - this.drawnAt;
-    this.drawnAt = now;
-    if (!goal || samePlace(goal, cameraPlace)) return;
-    // Where pictures take long the camera jumps: none is drawn for its way alone.
-    const part = calm.matches ? 1 : 1 - Math.exp(-(since < pictureRests ? since : 16) / easing);
-    const near = (1 - part) * apart(goal, cameraPlace) <= arrived * lengthOf(goal);
-    const between = (from: Point, to: Point): Vector3 => this.inScene(from).lerp(this.inScene(to), near ? 1 : part);
-    this.controls.place(between(cameraPlace.position, goal.position), between(cameraPlace.target, goal.target));
-    if (!near) this.draw();
+    const all = this.beside ? corners(this.beside).map((corner) => this.inScene(corner)) : [];
+    return { points, all, width, height, covered: this.margins };
   }
 
   get cameraPlace(): CameraPlace {
-    return { position: this.inWorld(this.controls.camera.position), target: this.inWorld(this.controls.target) };
+    return this.followingCamera.place;
   }
 
-  set cameraPlace({ position, target }: CameraPlace) {
-    this.stay();
-    this.controls.place(this.inScene(position), this.inScene(target));
+  set cameraPlace(place: CameraPlace) {
+    this.followingCamera.stay();
+    this.followingCamera.moveTo(place);
     this.draw();
   }
 
   /** Origin, reach and floor from this mesh: they stay, so that nothing jumps while the water moves. */
   private adopt(box: WorldBox | undefined): void {
     if (!this.shown || !box) return;
-    const { position, target } = this.cameraPlace;
+    const { cameraPlace } = this;
     this.origin = center(box);
     this.bricks.show(this.shown, this.origin);
     this.particles.moveTo(this.origin);
     this.showSpray();
     this.placeInScene();
-    this.controls.place(this.inScene(position), this.inScene(target));
-    this.environment.sceneSize.value = size(box);
+    this.followingCamera.moveTo(cameraPlace);
     this.setReach();
-    // Under the lowest corner, whichever axis is up.
-    this.environment.floorCenter.value.set(0, this.inScene(box.min).y, 0);
-    // The floor's lines lie at round lengths, and stay while the water moves.
-    const step = roundLength(gridPart * (size(box) || 1));
-    const { x, z } = this.inScene([0, 0, 0]);
-    this.environment.gridStep.value = step;
-    this.environment.gridOrigin.value.set(x % step, 0, z % step);
+    // Under the lowest corner, whichever axis is up. Its lines stay while the water moves.
+    layFloor(this.environment, size(box), this.inScene(box.min).y, this.inScene([0, 0, 0]));
   }
 
   private setReach(): void {
-    const box = unionOf([this.box, this.beside]);
+    const box = this.boxInView;
     if (box) this.controls.setReach(size(box));
   }
 
@@ -498,7 +412,7 @@ export class Viewer {
     this.spray.setScreenHeight(this.canvas.height);
     this.thickness.setSize(this.canvas.width / thicknessCoarseness, this.canvas.height / thicknessCoarseness);
     putInTheMiddle(this.controls.camera, this.margins, clientWidth, clientHeight);
-    if (this.following) this.lookAgain();
+    this.followingCamera.lookAgain();
     // At once: the canvas is blank now.
     this.render();
   }
@@ -517,7 +431,7 @@ export class Viewer {
   render(): void {
     const { camera } = this.controls;
     const cut = this.cutPlanes.length > 0;
-    this.step(performance.now());
+    this.followingCamera.step(performance.now());
     this.renderer.localClippingEnabled = cut;
     camera.updateMatrixWorld();
     this.background.update(camera);
@@ -535,22 +449,4 @@ export class Viewer {
     this.events.rendered();
     if (this.shown) this.events.drawn(this.shown.frame, triangles - 1, this.particles.shown);
   }
-}
-
-/** Up to what the way through the scene's coordinates costs. */
-function samePlace(a: CameraPlace, b: CameraPlace): boolean {
-  return apart(a, b) <= 1e-6 * lengthOf(a);
-}
-
-/** The way of position and target together. */
-function apart(a: CameraPlace, b: CameraPlace): number {
-  return distanceOf(a.position, b.position) + distanceOf(a.target, b.target);
-}
-
-function lengthOf({ position, target }: CameraPlace): number {
-  return distanceOf(position, target);
-}
-
-function distanceOf(p: Point, q: Point): number {
-  return Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
