@@ -30,9 +30,7 @@ ADDRESSES = [
     wrong("address: nobody listens", _connect("127.0.0.1:1"), Server, "127.0.0.1:1"),
     wrong("address: no socket", _connect("unix:/nowhere/at/all"), Server, "/nowhere/at/all"),
     wrong("address: a path too long", _connect("unix:/" + "a" * 200), (Bad, Server), "a"),
-    wrong(
-        "address: no such host", _connect("nowhere.invalid:1", timeout=5), Server, "nowhere.invalid", "be resolved"
-    ),
+    wrong("address: no such host", _connect("nowhere.invalid:1", timeout=5), Server, "nowhere.invalid", "be resolved"),
     wrong("address: of a page", _connect("http://127.0.0.1:9464"), Bad, "http://127", "HOST:PORT alone", "50051"),
     wrong("address: of a page with TLS", _connect("HTTPS://water.example/"), Bad, "HTTPS://water", "HOST:PORT alone"),
 ]
