@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { missing } from './support/browser.mjs';
-import { startServer } from './support/programs.mjs';
-import { startReplay } from './support/recording.mjs';
+import { startServer, startUploader } from './support/programs.mjs';
+import { recordedFile, startReplay } from './support/recording.mjs';
 import { link, open, state, surface } from './support/viewer.mjs';
 
 const cameraOf = (address) => new URLSearchParams(new URL(address).hash.slice(1)).get('camera')?.split(',').map(Number);
@@ -26,6 +26,36 @@ describe('the camera', { skip: missing }, () => {
     await again.keyboard.press('w');
     await again.waitForFunction(() => !/look=/.test(location.hash));
     cameraOf(again.url()).forEach((x, i) => assert.ok(Math.abs(x - cameraOf(address)[i]) < 1e-4, again.url()));
+  });
+
+  it('has the water in view from the first picture on', async () => {
+    const server = await startServer();
+    const { file } = await recordedFile();
+    const replay = startUploader(server, ['replay', file, '--speed', 'max', '--to', '31', '--keep-session']);
+    await replay.finished();
+    const page = await open(undefined);
+    // Bricks beside a picture are not drawn. All pictures are of one frame.
+    await page.addInitScript(() => {
+      window.counts = [];
+      addEventListener('DOMContentLoaded', () => {
+        const view = document.getElementById('view');
+        new MutationObserver(() => window.counts.push(Number(view.dataset.triangles))).observe(view, {
+          attributeFilter: ['data-triangles'],
+        });
+      });
+    });
+    await page.goto(`${server.url}?embed#session=${replay.session}`);
+    await surface(page);
+    await state(page, 'live');
+    const [first, ...others] = await page.evaluate(async () => {
+      for (let picture = 0; picture < 10; ++picture) await new Promise(requestAnimationFrame);
+      return window.counts;
+    });
+    assert.ok(first > 0);
+    assert.deepEqual(
+      others.filter((count) => count !== first),
+      [],
+    );
   });
 
   it('keeps spreading water in view until a person moves it', async () => {

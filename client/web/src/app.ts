@@ -120,6 +120,9 @@ export class App {
       recovered: () => {
         this.banner.say('');
       },
+      firstShown: () => {
+        this.place(this.linked.camera);
+      },
       firstFrame: () => {
         this.firstFrame();
       },
@@ -263,6 +266,7 @@ export class App {
 
   private firstFrame(): void {
     this.inPlaceOfPicture('');
+    // Again: the figures cover a part of the picture now.
     this.place(this.linked.camera);
   }
 

@@ -13,6 +13,9 @@ export interface ScreenEvents {
   failed(reason: string): void;
   /** A frame is shown again after one that failed. */
   recovered(): void;
+  /** The first frame is about to be drawn. */
+  firstShown(): void;
+  /** It has been drawn, and its figures stand beside it. */
   firstFrame(): void;
 }
 
@@ -32,6 +35,7 @@ export class Screen {
     this.store = new BrickStore((...what) => pool.decode(...what), {
       shown: (shown) => {
         this.viewer.show(shown);
+        if (!this.lastDrawn) this.events.firstShown();
         this.events.shown();
         if (this.failing) this.events.recovered();
         this.failing = false;
