@@ -5,17 +5,12 @@
 
 #include "lattice/block_mask.hpp"
 #include "lattice/blocks.hpp"
+#include "lattice/cell_bend.hpp"
 #include "lattice/host_device.hpp"
 #include "lattice/level_sets.hpp"
 #include "meniscus/memory.hpp"
 
 namespace meniscus {
-
-/// An estimate of the surface in a cell of the band before it is sampled; zeros outside of the band.
-struct CellBend {
-    float curvature;  ///< sum of both principal curvatures' magnitudes, times c
-    int least_level;  ///< least level for a surface that no corner shows: curvature does not see it
-};
 
 /// Bounds of the field in a cell, by its particles alone.
 struct CellReach {

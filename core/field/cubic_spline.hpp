@@ -100,9 +100,9 @@ struct CubicSpline {
         return F(weight) * cubic_spline(q);
     }
 
-    /// Adds the share to a jet, FieldSlope or FieldJet.
-    template <class Jet, class F>
-    MENISCUS_HD void add_jet(Jet& jet, F dx, F dy, F dz) const {
+    /// Adds the share to a jet.
+    template <class F>
+    MENISCUS_HD void add_jet(FieldJet<F>& jet, F dx, F dy, F dz) const {
         const F distance = max(length(dx, dy, dz), F(1.0F / 64.0F));
         const F q = distance * F(inverse_support);
         const F inverse = F(1.0F) / distance;

@@ -1,4 +1,4 @@
-// A field at a point to first and to second order.
+// A field at a point to second order.
 #pragma once
 
 #include "field/lanes.hpp"
@@ -6,21 +6,7 @@
 
 namespace meniscus {
 
-/// The field to first order. Lengths in units. F is float or Lanes.
-template <class F>
-struct FieldSlope {
-    F value = F(0.0F);
-    F x = F(0.0F), y = F(0.0F), z = F(0.0F);  ///< gradient
-
-    /// As FieldJet does, with the same bits.
-    MENISCUS_HD void add_radial(F first, F, F dx, F dy, F dz) {
-        x = fma(first, dx, x);
-        y = fma(first, dy, y);
-        z = fma(first, dz, z);
-    }
-};
-
-/// The field to second order.
+/// The field to second order. Lengths in units. F is float or Lanes.
 template <class F>
 struct FieldJet {
     F value = F(0.0F);

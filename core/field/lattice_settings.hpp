@@ -50,6 +50,8 @@ struct LatticeSettings {
 
     // Vertices.
     bool bisects = false;
+    bool moves_coarse_vertices =
+        false;  ///< whether vertices lie half a sagitta out, see steps/place_vertices/coarse_edges.hpp
     std::uint32_t bisection_steps = 0;  ///< number of steps on a finest edge
     std::uint32_t offset_bits = 6;
     bool has_normals = true;

@@ -98,9 +98,9 @@ struct Poly6 {
         return a2 * a;
     }
 
-    /// Adds the share to a jet, FieldSlope or FieldJet.
-    template <class Jet, class F>
-    MENISCUS_HD void add_jet(Jet& jet, F dx, F dy, F dz) const {
+    /// Adds the share to a jet.
+    template <class F>
+    MENISCUS_HD void add_jet(FieldJet<F>& jet, F dx, F dy, F dz) const {
         const F a = root_of_share(squared_distance(dx, dy, dz));
         const F a2 = a * a;
         jet.value = fma(a2, a, jet.value);

@@ -54,7 +54,7 @@ double margin(const Settings& settings) {
 }
 
 double tolerance(const Settings& settings) {
-    return value_or_default<CurvatureCriterion>(settings.criterion).tolerance.value_or(0.15);
+    return value_or_default<CurvatureCriterion>(settings.criterion).tolerance.value_or(0.18);
 }
 
 Settings in_force(Settings settings) {

@@ -82,9 +82,9 @@ MENISCUS_HD inline void turn_outward(F& x, F& y, F& z) {
     z = z / size;
 }
 
-/// Adds to the field's jets, FieldSlope or FieldJet. X: F, or what gives one less an F.
-template <class Kernel, class X, class F, class Jet>
-MENISCUS_HD inline void sum_jets(const NeighborView& near, const X& x, F y, F z, Jet& jet) {
+/// Adds to the field's jets. X: F, or what gives one less an F.
+template <class Kernel, class X, class F>
+MENISCUS_HD inline void sum_jets(const NeighborView& near, const X& x, F y, F z, FieldJet<F>& jet) {
     for (std::size_t j = 0; j < near.count; ++j)
         Kernel::of(near, j).add_jet(jet, x - F(near.x[j]), y - F(near.y[j]), z - F(near.z[j]));
 }

@@ -3,6 +3,7 @@
 #include <google/protobuf/unknown_field_set.h>
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "meniscus/error.hpp"
@@ -61,6 +62,10 @@ Settings from_wire(const v1::Settings& wire) {
     if (wire.has_domain()) from_wire(wire.domain(), "settings.domain");
     Settings settings;
     rows::fill_record(wire, settings, refuse_number);
+    // Our own clients name it. What others do not name stays what it was.
+    constexpr double unnamed_tolerance = 0.15;
+    if (auto* const curvature = std::get_if<CurvatureCriterion>(&settings.criterion))
+        if (!curvature->tolerance) curvature->tolerance = unnamed_tolerance;
     // Sessions of one surface have equal settings, whether or not their makers named a default.
     return in_force(settings);
 }

@@ -54,7 +54,7 @@ class MeniscusQuality(bpy.types.PropertyGroup):
     tolerance: FloatProperty(
         name="Tolerance",
         description="How far the surface may depart from that of the finest cells, in finest cells",
-        default=0.15,
+        default=0.18,
         min=0.0,
         soft_max=1.0,
         update=_changed,

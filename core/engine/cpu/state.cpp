@@ -19,6 +19,7 @@ State::State(const std::shared_ptr<MemoryAccount>& account, Workers& own_workers
     charge(all_inside);
     charge(chosen);
     for (auto& set : stale) charge(set);
+    for (auto& set : asked_beside) charge(set);
 }
 
 void State::release_samples() {

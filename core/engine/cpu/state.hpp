@@ -44,6 +44,7 @@ struct State : BlockState<Array> {
     Array<std::uint64_t> any_inside, all_inside;               ///< signs of blocks, see SignSets
     Array<std::uint64_t> chosen;                               ///< cells that a pass chooses for the next one
     std::array<Array<std::uint64_t>, all_rules.size()> stale;  ///< stale cells by rule
+    std::array<Array<std::uint64_t>, 2> asked_beside;          ///< cells that ask level 2 and 3 of their face neighbors
     AttributeNumbers attributes;  ///< numbers of the frame, set before its particles are registered
     std::uint64_t vertices_without_particles = 0;
     std::uint64_t field_evaluations = 0;

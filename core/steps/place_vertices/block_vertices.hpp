@@ -15,6 +15,7 @@ struct BlockVertices {
     std::size_t first[4];                                 ///< index of every axis' first vertex, and the end
     std::uint8_t bit[max_points];                         ///< lower end of the edge
     alignas(64) float low[max_points], high[max_points];  ///< field values at the edge's ends
+    alignas(64) float iso[max_points];                    ///< value that the vertex takes, where it is moved
     alignas(64) float offset[max_points];                 ///< offset from the lower end, in steps of c / 2^bits
 };
 

@@ -11,16 +11,55 @@
 #include "steps/cpu_steps.hpp"
 #include "steps/place_vertices/block_vertices.hpp"
 #include "steps/place_vertices/cluster_sums.hpp"
+#include "steps/place_vertices/coarse_edges.hpp"
 
 namespace meniscus::cpu {
 namespace {
 
-void interpolate(const BlocksView& blocks, std::uint32_t block, const LatticeSettings& settings,
-                 BlockVertices& vertices) {
+/// Finds the iso-values that a block's vertices take.
+void find_iso_values(const BlocksView& blocks, std::uint32_t block, const State& state, BlockVertices& vertices) {
+    const float iso = state.settings.iso;
+    CellAtEdge cells[8];
+    unsigned looked_up = 0;
+    const auto cell_at = [&](int i) {
+        if ((looked_up >> i & 1) == 0) {
+            const std::uint32_t cell = i == 0 ? block : blocks.neighbor(block, LevelsAround::offset(i));
+            cells[i] = CellAtEdge(blocks, state.bends.data(), cell);
+            looked_up |= 1U << i;
+        }
+        return cells[i];
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        const BlockMask low_u = low_face(axis == 0 ? 1 : 0);
+        const BlockMask low_v = low_face(axis == 2 ? 1 : 2);
+        // All edges along an axis that lie on the same low faces have the same cells.
+        float shifted[4];
+        unsigned known = 0;
+        for (std::size_t i = vertices.first[axis]; i < vertices.first[axis + 1]; ++i) {
+            const int bit = vertices.bit[i];
+            const auto faces = static_cast<unsigned>((low_u >> bit & 1) | (low_v >> bit & 1) << 1);
+            if ((known >> faces & 1) == 0)
+                shifted[faces] = iso + iso_shift(axis, bit, cell_at);
+            known |= 1U << faces;
+            vertices.iso[i] = shifted[faces];
+        }
+    }
+}
+
+void interpolate(const BlocksView& blocks, std::uint32_t block, const State& state, BlockVertices& vertices) {
+    const LatticeSettings& settings = state.settings;
     const int bits = static_cast<int>(settings.offset_bits);
-    for (std::size_t i = 0; i < vertices.count; i += WideLanes::count)
-        interpolated_offset(WideLanes::load(vertices.low + i), WideLanes::load(vertices.high + i), settings.iso, bits)
-            .store(vertices.offset + i);
+    const auto place = [&](const auto& iso_at) {
+        for (std::size_t i = 0; i < vertices.count; i += WideLanes::count)
+            interpolated_offset(WideLanes::load(vertices.low + i), WideLanes::load(vertices.high + i), iso_at(i), bits)
+                .store(vertices.offset + i);
+    };
+    if (settings.moves_coarse_vertices && blocks.level[block] != 3) {
+        find_iso_values(blocks, block, state, vertices);
+        place([&](std::size_t i) { return WideLanes::load(vertices.iso + i); });
+    } else {
+        place([&](std::size_t) { return WideLanes(settings.iso); });
+    }
     if (!settings.has_domain) return;
     for (std::size_t i = 0; i < vertices.count; ++i)
         if (EdgeValues{vertices.low[i], vertices.high[i]}.cropped(settings.iso))
@@ -125,7 +164,7 @@ void place_vertices(State& state, FieldSource& field, Mesh& mesh) {
                 bisect(field, at, blocks, block, state.settings, worker, vertices);
                 evaluations.fetch_add(vertices.count * state.settings.bisection_steps, std::memory_order_relaxed);
             } else {
-                interpolate(blocks, block, state.settings, vertices);
+                interpolate(blocks, block, state, vertices);
             }
             list_points(vertices, state.settings.offset_bits, points);
             write_positions(at, static_cast<int>(state.settings.offset_bits), points,

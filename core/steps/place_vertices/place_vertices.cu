@@ -5,6 +5,7 @@
 #include "neighbors/cuda/particle_field.hpp"
 #include "steps/cuda_steps.hpp"
 #include "steps/place_vertices/cluster_vertices.hpp"
+#include "steps/place_vertices/coarse_edges.hpp"
 
 namespace meniscus::cuda {
 namespace {
@@ -106,7 +107,16 @@ __global__ void __launch_bounds__(block_threads, 2)
                     go_to(bisected_offset(v.offset, step, value > iso, low_inside));
                 }
             } else {
-                go_to(cropped ? cropped_offset(low_inside, bits) : interpolated_offset(ends.low, ends.high, iso, bits));
+                const float shift =
+                    state.settings.moves_coarse_vertices
+                        ? iso_shift(v.axis, v.bit,
+                                    [&](int cell) {
+                                        return CellAtEdge(blocks, state.bends,
+                                                          blocks.neighbor(place.block, LevelsAround::offset(cell)));
+                                    })
+                        : 0.0F;
+                go_to(cropped ? cropped_offset(low_inside, bits)
+                              : interpolated_offset(ends.low, ends.high, iso + shift, bits));
             }
             if (i < count) state.vertices[place.number] = lattice_position(vertices.lowest, bits, x, y, z);
             if (!state.settings.has_normals) continue;

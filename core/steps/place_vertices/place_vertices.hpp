@@ -105,10 +105,10 @@ MENISCUS_HD inline EdgeValues edge_values(const Values& own, const Values& next,
 }
 
 /// Place of the vertex on a finest edge between field values `low` and `high`, on both sides of the iso-value, by
-/// linear interpolation: in steps of c / 2^bits, 1 to 2^bits - 1. F is float or Lanes.
+/// linear interpolation: in steps of c / 2^bits, 1 to 2^bits - 1. iso: need not lie between them. F is float or Lanes.
 template <class F>
-MENISCUS_HD inline F interpolated_offset(F low, F high, float iso, int bits) {
-    const F t = (F(iso) - low) / (high - low);
+MENISCUS_HD inline F interpolated_offset(F low, F high, F iso, int bits) {
+    const F t = (iso - low) / (high - low);
     const F half_steps = trunc(t * F(static_cast<float>(2 << bits))) + F(1.0F);
     const F nearest = trunc(half_steps * F(0.5F));
     return max(min(nearest, F(static_cast<float>((1 << bits) - 1))), F(1.0F));

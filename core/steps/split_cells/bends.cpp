@@ -99,7 +99,8 @@ public:
                                  corners_[6], corners_[7], mixed_, lowest_[0], lowest_[1], lowest_[2], aside_})
             std::fill(row + count_, row + F::count, row[0]);
         const F aside = F::load(aside_);
-        const auto jet_at = [&]<class Jet>(const Point3<F>& p, Jet jet) {
+        const auto jet_at = [&](const Point3<F>& p) {
+            FieldJet<F> jet;
             const auto add_near = [&](const UnitBox& box, const auto& x) {
                 for (const NeighborList& of_level : near(box)) sum_jets<Kernel>(of_level.view(), x, p.y, p.z, jet);
             };
@@ -113,14 +114,17 @@ public:
         CellCorners<F> values;
         for (int k = 0; k < 8; ++k) values.value[k] = F::load(corners_[k]);
         const Point3<F> lowest{F::load(lowest_[0]), F::load(lowest_[1]), F::load(lowest_[2])};
-        const SurfaceSearch<F> found = search_surface(values, F::load(mixed_), lowest, iso, jet_at);
-        found.curvature.store(curvature_);
+        const SurfaceSearch<F> found =
+            search_surface(values, F::load(mixed_), lowest, iso, jet_at,
+                           [](const F& of_cells) { return less_equal(F(1.0F), of_cells) != 0; });
+        found.bend.curvature.store(curvature_);
+        found.bend.trace.store(trace_);
         found.inside.store(inside_);
     }
 
     void enter_bends(State& state, const BlobRule& blobs) const {
         for (int i = 0; i < count_; ++i)
-            state.bends[block_[i]] = cell_bend({curvature_[i], inside_[i]}, inside_corners_[i],
+            state.bends[block_[i]] = cell_bend({{curvature_[i], trace_[i]}, inside_[i]}, inside_corners_[i],
                                                blobs.least_level(inside_corners_[i], state.reaches[block_[i]]));
     }
 
@@ -130,6 +134,7 @@ private:
     alignas(64) float lowest_[3][cluster_blocks];   ///< lowest points, units from their pair's
     alignas(64) float aside_[cluster_blocks];       ///< distance of the pair along x from the cluster's lowest point
     alignas(64) float curvature_[cluster_blocks];
+    alignas(64) float trace_[cluster_blocks];
     alignas(64) float inside_[cluster_blocks];
     std::uint32_t block_[cluster_blocks];
     int inside_corners_[cluster_blocks];
@@ -139,7 +144,7 @@ private:
 /// Finds the bends of the chosen cells.
 template <class Kernel>
 void measure(State& state, NeighborSearch& search) {
-    state.bends.assign(state.block_count(), {0.0F, 1});
+    state.bends.assign(state.block_count(), {0.0F, 0.0F, 1});
     const BlocksView blocks = state.blocks();
     const BlobRule blobs{state.settings.blob_closest, state.settings.blob_level};
     const float iso = state.settings.iso;
@@ -164,7 +169,7 @@ void measure(State& state, NeighborSearch& search) {
                 // A sheet of cells fills half of a wide register.
                 with_lanes_for(cells.count(), [&]<class F>() { cells.search<Kernel, F>(iso, near_box); });
                 cells.enter_bends(state, blobs);
-                here += 2 * static_cast<std::uint64_t>(cells.count());
+                here += static_cast<std::uint64_t>(cells.count());
             });
         }
         evaluations.fetch_add(here, std::memory_order_relaxed);

@@ -54,7 +54,8 @@ __global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_co
         const float aside[3] = {static_cast<float>(step.x & ~1) * base_edge,
                                 static_cast<float>(step.y & ~1) * base_edge,
                                 static_cast<float>(step.z & ~1) * base_edge};
-        const auto jet_at = [&]<class Jet>(const Point3<float>& p, Jet jet) {
+        const auto jet_at = [&](const Point3<float>& p) {
+            FieldJet<float> jet;
             // Wider by a unit, since the sides of the box are rounded, but no wider than the cluster, which holds all.
             UnitBox box = box_of({p.x + aside[0], p.y + aside[1], p.z + aside[2]}, is_asked);
             for (int axis = 0; axis < 3; ++axis) {
@@ -70,12 +71,13 @@ __global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_co
             });
             return jet;
         };
-        const SurfaceSearch<float> search =
-            search_surface(corners, is_mixed(inside_corners) ? 1.0F : 0.0F, corner, iso, jet_at);
+        const SurfaceSearch<float> search = search_surface(
+            corners, is_mixed(inside_corners) ? 1.0F : 0.0F, corner, iso, jet_at,
+            [&](float of_cell) { return __ballot_sync(all_lanes, is_asked && of_cell == 1.0F ? 1 : 0) != 0; });
         if (is_asked)
             state.bends[block] =
                 cell_bend(search, inside_corners, blobs.least_level(inside_corners, state.reaches[block]));
-        evaluations += is_asked ? 2 : 0;
+        evaluations += is_asked ? 1 : 0;
     });
     add_of_lanes(&state.counts->field_evaluations, evaluations);
 }

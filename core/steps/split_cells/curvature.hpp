@@ -69,26 +69,24 @@ MENISCUS_HD inline Point3<F> trilinear_root(const CellCorners<F>& corners) {
 }
 
 /// One Newton step of the field toward the iso-value, along the gradient. Units.
-template <class Jet, class F>
-MENISCUS_HD inline Point3<F> newton_step(const Jet& jet, float iso, const Point3<F>& p) {
+template <class F>
+MENISCUS_HD inline Point3<F> newton_step(const FieldJet<F>& jet, float iso, const Point3<F>& p) {
     const F t = (jet.value - F(iso)) / curvature_detail::divisor(jet.x, jet.y, jet.z);
     return {p.x - t * jet.x, p.y - t * jet.y, p.z - t * jet.z};
 }
 
+/// How the surface bends near a point.
 template <class F>
-MENISCUS_HD inline Point3<F> clamped_to_cell(const Point3<F>& p, const Point3<F>& corner) {
-    const F edge(static_cast<float>(units_per_base_cell));
-    return {curvature_detail::clamped(p.x, corner.x, corner.x + edge),
-            curvature_detail::clamped(p.y, corner.y, corner.y + edge),
-            curvature_detail::clamped(p.z, corner.z, corner.z + edge)};
-}
+struct SurfaceBend {
+    F curvature;  ///< sum of both principal curvatures' magnitudes, per unit
+    F trace;      ///< of the tangential part of the field's Hessian, per unit squared
+};
 
-/// The bend of the surface near a point of a jet: both its principal curvatures, absolute, added; per unit. Those of
-/// the point's own level set are the eigenvalues of the Hessian's tangential part over the length of the gradient.
-/// Level sets are taken as parallel: the surface's radii of curvature differ from these by its distance, which gives a
-/// drop's size from outside of it.
+/// The bend of the surface near a point of a jet. The curvatures of the point's own level set are the eigenvalues of
+/// the Hessian's tangential part over the length of the gradient. Level sets are taken as parallel: the surface's radii
+/// of curvature differ from these by its distance, which gives a drop's size from outside of it.
 template <class F>
-MENISCUS_HD inline F total_curvature(const FieldJet<F>& j, float iso) {
+MENISCUS_HD inline SurfaceBend<F> surface_bend(const FieldJet<F>& j, float iso) {
     const F size = max(sqrt(fma(j.x, j.x, fma(j.y, j.y, j.z * j.z))), F(1e-15F));
     const F nx = j.x / size, ny = j.y / size, nz = j.z / size;
     const F hx = fma(j.xx, nx, fma(j.xy, ny, j.xz * nz));
@@ -108,33 +106,57 @@ MENISCUS_HD inline F total_curvature(const FieldJet<F>& j, float iso) {
         const F gap = curvature_detail::clamped(fma(eigenvalue, climb, size), F(0.5F) * size, F(2.0F) * size);
         return max(eigenvalue, F(0.0F) - eigenvalue) / gap;
     };
-    return curvature(half + spread) + curvature(half - spread);
+    return {curvature(half + spread) + curvature(half - spread), trace};
 }
+
+/// A cell whose corners agree is looked at once more where the first step ends this near outside of it, units
+/// (measured: core/README.md#newton-steps-three-and-two).
+inline constexpr float look_again_within = 0.5F * units_per_cell;
 
 /// The result of search_surface().
 template <class F>
 struct SurfaceSearch {
-    F curvature;  ///< curvature there, see total_curvature
-    F inside;     ///< distance of the point found from the cell's nearest face, units; negative if it left the cell
+    SurfaceBend<F> bend;
+    F inside;  ///< distance of the point found from the cell's nearest face, units; negative if it left the cell
 };
 
+namespace curvature_detail {
+
+/// A point's distance from the nearest face of a cell; negative outside.
+template <class F>
+MENISCUS_HD inline F depth_in_cell(const Point3<F>& p, const Point3<F>& corner) {
+    const F edge(static_cast<float>(units_per_base_cell));
+    const auto depth = [&](F v, F low) { return F(0.0F) - max(low - v, v - (low + edge)); };
+    return min(min(depth(p.x, corner.x), depth(p.y, corner.y)), depth(p.z, corner.z));
+}
+
+}  // namespace curvature_detail
+
 /// Looks for the surface in a cell: from the trilinear root where the corners' signs are mixed (1), from the middle
-/// where they agree (0), one Newton step, held inside the cell; then curvature, and where a second step leads. corner:
-/// the cell's lowest point, units. jet_at: from a Point3<F> and an empty FieldSlope<F> or FieldJet<F> to the one there.
-template <class F, class JetAt>
+/// where they agree (0); then how it bends, and where a Newton step leads. A cell whose corners agree is looked at once
+/// more from there, if that is near. corner: the cell's lowest point, units. jet_at: from a Point3<F> to the
+/// FieldJet<F> there. any: whether an F of 0 or 1 is 1 for any of the cells that are searched together.
+template <class F, class JetAt, class Any>
 MENISCUS_HD inline SurfaceSearch<F> search_surface(const CellCorners<F>& corners, F mixed, const Point3<F>& corner,
-                                                   float iso, const JetAt& jet_at) {
+                                                   float iso, const JetAt& jet_at, const Any& any) {
+    using curvature_detail::clamped;
+    using curvature_detail::depth_in_cell;
     const F edge(static_cast<float>(units_per_base_cell));
     const Point3<F> start = trilinear_root(corners);
     const auto blend = [&](F from, F s) { return from + edge * fma(mixed, s - F(0.5F), F(0.5F)); };
-    Point3<F> p{blend(corner.x, start.x), blend(corner.y, start.y), blend(corner.z, start.z)};
-    p = clamped_to_cell(newton_step(jet_at(p, FieldSlope<F>()), iso, p), corner);
-    const FieldJet<F> jet = jet_at(p, FieldJet<F>());
-    const Point3<F> end = newton_step(jet, iso, p);
-    const auto depth = [&](F v, F low) { return F(0.0F) - max(low - v, v - (low + edge)); };
-    const F depth_x = depth(end.x, corner.x), depth_y = depth(end.y, corner.y), depth_z = depth(end.z, corner.z);
-    const F depth_xy = F(0.0F) - max(F(0.0F) - depth_x, F(0.0F) - depth_y);
-    return {total_curvature(jet, iso), F(0.0F) - max(F(0.0F) - depth_xy, F(0.0F) - depth_z)};
+    const Point3<F> p{blend(corner.x, start.x), blend(corner.y, start.y), blend(corner.z, start.z)};
+    FieldJet<F> jet = jet_at(p);
+    Point3<F> end = newton_step(jet, iso, p);
+    // So large that a float above zero becomes 1.
+    const F is_near = clamped((depth_in_cell(end, corner) + F(look_again_within)) * F(1e30F), F(0.0F), F(1.0F));
+    const F again = is_near * (F(1.0F) - mixed);
+    if (any(again)) {
+        const auto step = [&](F from, F to, F low) { return clamped(fma(again, to - from, from), low, low + edge); };
+        const Point3<F> q{step(p.x, end.x, corner.x), step(p.y, end.y, corner.y), step(p.z, end.z, corner.z)};
+        jet = jet_at(q);
+        end = newton_step(jet, iso, q);
+    }
+    return {surface_bend(jet, iso), depth_in_cell(end, corner)};
 }
 
 }  // namespace meniscus

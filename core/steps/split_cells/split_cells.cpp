@@ -1,6 +1,8 @@
 // Step 2 on the CPU.
 #include "steps/split_cells/split_cells.hpp"
 
+#include <algorithm>
+
 #include "engine/cpu/words.hpp"
 #include "steps/cpu_steps.hpp"
 
@@ -52,6 +54,39 @@ WantedLevel choose_levels(State& state, const Rule& level_of) {
                 state.level[b] = static_cast<std::uint8_t>(level_of(blocks, static_cast<std::uint32_t>(b)));
     });
     return [&state, level_of](std::uint32_t block) { return level_of(state.blocks(), block); };
+}
+
+/// The same for the curvature of the surface, 64 cells at a time.
+WantedLevel choose_levels(State& state, const CurvatureRule& rule) {
+    const std::size_t words = state.grid.bricks.size() * Brick::words;
+    for (auto& set : state.asked_beside) resize_for_overwrite(set, words);
+    const LevelSets asked{
+        {{}, {}, {state.grid.view(), state.asked_beside[0].data()}, {state.grid.view(), state.asked_beside[1].data()}}};
+    const CellSetView band = state.chosen_cells();
+    // All words: those without a member are neighbors of others.
+    for_each_brick(state, [&](std::uint32_t brick) {
+        for (int w = 0; w < Brick::words; ++w) {
+            std::uint64_t level2 = 0, level3 = 0;
+            for_each_cell(state.grid.bricks[brick], w, band.word(brick, w), [&](std::uint32_t block, int bit) {
+                state.level[block] = static_cast<std::uint8_t>(rule.of_cell(state.bends[block]));
+                const int beside = rule.of_neighbor(state.bends[block]);
+                level2 |= std::uint64_t{beside >= 2} << bit;
+                level3 |= std::uint64_t{beside >= 3} << bit;
+            });
+            asked.at_least[2].word(brick, w) = level2;
+            asked.at_least[3].word(brick, w) = level3;
+        }
+    });
+    for_each_word(state, [&](std::uint32_t brick, int w) {
+        const std::uint64_t cells = band.word(brick, w);
+        if (cells == 0) return;
+        for (int level = 2; level <= 3; ++level)
+            for_each_cell(state.grid.bricks[brick], w, cells & asked.beside(level, brick, w),
+                          [&](std::uint32_t block, int) {
+                              state.level[block] = std::max(state.level[block], static_cast<std::uint8_t>(level));
+                          });
+    });
+    return [&state, rule](std::uint32_t block) { return rule(state.blocks(), block); };
 }
 
 WantedLevel choose_levels(State& state, bool has_particle_levels) {

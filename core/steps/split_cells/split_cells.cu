@@ -81,7 +81,7 @@ __global__ void __launch_bounds__(block_threads, 4) find_band(const __grid_const
             const bool exists = word.holds(bit);
             const bool in_band = exists && corners.may_hold_surface(bit, test, state.reaches[block].bound);
             if (exists) state.level[block] = in_band ? 1 : 0;
-            if (exists && bends) state.bends[block] = {0.0F, 1};
+            if (exists && bends) state.bends[block] = {0.0F, 0.0F, 1};
         }
     });
 }

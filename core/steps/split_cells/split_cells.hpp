@@ -44,17 +44,30 @@ struct CurvatureRule {
     float tolerance = 0.15F;          ///< largest departure, in cells
 
     MENISCUS_HD int operator()(const BlocksView& blocks, std::uint32_t block) const {
-        float curvature = cells[block].curvature;
+        int level = of_curvature(cells[block].curvature);
         for (int axis = 0; axis < 3; ++axis)
             for (int side = -1; side <= 1; side += 2) {
                 const std::uint32_t other = blocks.neighbor(block, axis_offset(axis, side));
-                if (other != no_index) curvature = max(curvature, 0.5F * cells[other].curvature);
+                if (other != no_index) level = max_level(level, of_neighbor(cells[other]));
             }
-        const int level = curvature * 4.0F <= 3.0F * tolerance ? 1 : curvature <= 3.0F * tolerance ? 2 : 3;
         // A cell that joins the band later holds surface that its corners do not show.
-        const int least = blocks.level[block] == 0 ? 2 : cells[block].least_level;
-        return level > least ? level : least;
+        return max_level(level, blocks.level[block] == 0 ? 2 : cells[block].least_level);
     }
+
+    // Its parts, for rules that look at 64 cells at once.
+
+    /// The level that a cell's own surface asks for.
+    MENISCUS_HD int of_cell(const CellBend& cell) const {
+        return max_level(of_curvature(cell.curvature), cell.least_level);
+    }
+    /// The level that a cell asks of its face neighbors.
+    MENISCUS_HD int of_neighbor(const CellBend& cell) const { return of_curvature(0.5F * cell.curvature); }
+
+private:
+    MENISCUS_HD int of_curvature(float curvature) const {
+        return curvature * 4.0F <= 3.0F * tolerance ? 1 : curvature <= 3.0F * tolerance ? 2 : 3;
+    }
+    MENISCUS_HD static int max_level(int a, int b) { return a > b ? a : b; }
 };
 
 /// Drops that no corner shows: a cell whose corners are all outside, but with a particle so near that its own blob may
@@ -81,7 +94,10 @@ MENISCUS_HD inline CellBend cell_bend(const SurfaceSearch<float>& search, int in
     const bool agree = !is_mixed(inside_corners);
     const bool hidden = agree && search.inside >= 0.0F;
     const bool touched = search.inside >= -surface_margin;
-    return {agree && !touched ? 0.0F : search.curvature * units_per_cell, hidden && blob_level < 2 ? 2 : blob_level};
+    const int least_level = hidden && blob_level < 2 ? 2 : blob_level;
+    if (agree && !touched) return {0.0F, 0.0F, least_level};
+    constexpr auto c = static_cast<float>(units_per_cell);
+    return {search.bend.curvature * c, search.bend.trace * (c * c), least_level};
 }
 
 struct BandTest {

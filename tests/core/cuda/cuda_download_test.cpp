@@ -111,8 +111,9 @@ TEST_F(CudaDownload, AFrameThatFindsBothSetsOfArraysInUseBringsTheEarlierMeshDow
 
 TEST_F(CudaDownload, TrianglesComeDownBrickByBrickAfterTheVertices) {
     Settings settings = test::default_settings();
-    settings.field = Field::color;  // with triangles enough for several runs of them
-    settings.cell_size = 0.2;
+    settings.mode = Mode::uniform;  // with triangles enough for several runs of them
+    settings.field = Field::color;
+    settings.cell_size = 0.25;
     make_device(0, settings);
     Frame frame(test::splash(4, 10), settings);
     begin(frame);
@@ -317,8 +318,9 @@ TEST_F(CudaDownload, ADeviceWithoutMemoryForACopyHasFailed) {
 
 TEST_F(CudaDownload, ABrickThatIsThereIsTakenWhileOthersComeDown) {
     Settings settings = test::default_settings();
-    settings.field = Field::color;  // with triangles enough for several runs of them
-    settings.cell_size = 0.2;
+    settings.mode = Mode::uniform;  // with triangles enough for several runs of them
+    settings.field = Field::color;
+    settings.cell_size = 0.25;
     make_device(0, settings);
     Frame frame(test::splash(4, 10), settings);
     begin(frame);

@@ -94,6 +94,7 @@ public:
             for (const std::uint32_t corner : cell.block) inside += static_cast<int>(blocks.inside_or_none(corner) & 1);
             const bool agree = inside == 0 || inside == 8;
             state_.wanted_level[b] = levels_.wanted[b];
+            state_.bends[b] = levels_.bends[b];
             state_.level[b] = !agree || levels_.starts[b] ? levels_.wanted[b] : std::uint8_t{0};
         }
         cuda::collect_level_sets(state_, launch_);

@@ -84,6 +84,7 @@ public:
             const bool agree = inside == 0 || inside == 8;
             state_.level[b] = !agree || levels_.starts[b] ? levels_.wanted[b] : std::uint8_t{0};
         }
+        state_.bends.assign(levels_.bends.begin(), levels_.bends.begin() + state_.block_count());
         cpu::collect_level_sets(state_);
         wanted_level_ = [this](std::uint32_t block) { return levels_.wanted[block]; };
     }
@@ -112,6 +113,11 @@ NoiseLevels noise_levels(const NoiseWorld& world) {
     for (int i = 0; i < world.side * world.side * world.side; ++i) {
         levels.wanted.push_back(static_cast<std::uint8_t>(world.uniform ? 3 : level(random)));
         levels.starts.push_back(starts(random));
+    }
+    std::uniform_real_distribution<float> trace(-4.0F, 4.0F);
+    for (const std::uint8_t wanted : levels.wanted) {
+        const float cubed = std::pow(trace(random), 3.0F);
+        levels.bends.push_back({0.0F, std::abs(cubed) < 0.5F ? 0.0F : cubed, wanted});
     }
     return levels;
 }

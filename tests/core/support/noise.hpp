@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lattice/cell_bend.hpp"
 #include "lattice/coordinates.hpp"
 #include "lattice/host_device.hpp"
 #include "meniscus/mesh.hpp"
@@ -27,10 +28,11 @@ struct NoiseWorld {
 /// The iso-value is 1.
 Settings noise_settings(const NoiseWorld& world);
 
-/// Levels of every base cell of the world, in the order of their numbers.
+/// What the first steps find out about every base cell of the world, in the order of their numbers.
 struct NoiseLevels {
     std::vector<std::uint8_t> wanted;
-    std::vector<bool> starts;  ///< whether a cell starts in the band, even if its corners agree
+    std::vector<bool> starts;     ///< whether a cell starts in the band, even if its corners agree
+    std::vector<CellBend> bends;  ///< traces alone: some none, some far too large
 };
 NoiseLevels noise_levels(const NoiseWorld& world);
 
