@@ -5,6 +5,7 @@ import { join } from 'node:path';
 import { describe, it } from 'node:test';
 import { missing, screenshot } from './support/browser.mjs';
 import { lattice, writeParticles } from './support/particles.mjs';
+import { measureWater } from './support/pictures.mjs';
 import { startServer, startUploader } from './support/programs.mjs';
 import { open, surface } from './support/viewer.mjs';
 
@@ -22,9 +23,28 @@ describe('the panels', { skip: missing }, () => {
       await surface(page);
       assert.equal(await page.locator('#frame').innerText(), '0');
       assert.equal(await page.locator('#at').innerText(), 'frame 0');
+      // The camera that follows leaves room for a panel that opens.
+      await page.click('#color');
+      const panel = await page.locator('#color-panel').boundingBox();
+      const clip = { x: 0, y: 60, width: viewport.width, height: viewport.height - 200 };
+      const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done))));
+      const looks = [];
+      for (let look = 0; look < 2; ++look) {
+        await drawn();
+        looks.push(await page.screenshot({ clip }));
+        await page.keyboard.press('w');
+      }
+      const { left } = await measureWater(await open(), ...looks);
+      assert.ok(left > panel.x + panel.width, `the water begins at ${left}, below ${JSON.stringify(panel)}`);
+      await page.click('#color');
       for (const tool of ['cut', 'probe', 'ruler', 'beside', 'color']) await page.click(`#${tool}`);
       const titles = await page.locator('#overlay h2, .panel h2').allInnerTexts();
       assert.deepEqual(titles, ['Figures', 'Color', 'Cut', 'Probe', 'Ruler', 'Beside']);
+      // The last one that was opened lies where it is seen, however many are open.
+      const [corner, last] = await Promise.all(
+        ['#corner', '#color-panel h2'].map((selector) => page.locator(selector).boundingBox()),
+      );
+      assert.ok(last.y >= corner.y && last.y + last.height <= corner.y + corner.height, JSON.stringify([corner, last]));
       await page.getByText('No attribute is named in this session: --attribute velocity names one.').waitFor();
       // The ring of what has the focus leaves its name to be read.
       const [name, field] = await page.evaluate(() => {
