@@ -30,9 +30,9 @@ describe('the panels', { skip: missing }, () => {
       const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done))));
       const looks = [];
       for (let look = 0; look < 2; ++look) {
+        await page.click('#look');
         await drawn();
         looks.push(await page.screenshot({ clip }));
-        await page.keyboard.press('w');
       }
       const { left } = await measureWater(await open(), ...looks);
       assert.ok(left > panel.x + panel.width, `the water begins at ${left}, below ${JSON.stringify(panel)}`);
