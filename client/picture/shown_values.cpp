@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "formats/containers/array_collector.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/names.hpp"
 #include "picture/id_palette.hpp"
@@ -28,12 +29,14 @@ Asked parse(const std::string& what) {
 }
 
 const formats::NamedValues& find(const formats::TriangleMesh& mesh, const Asked& asked) {
-    const auto found = std::ranges::find(mesh.attributes, asked.name, &formats::NamedValues::name);
+    auto found = std::ranges::find(mesh.attributes, asked.name, &formats::NamedValues::name);
+    if (found == mesh.attributes.end())  // as the file of the particles spelled it
+        found = std::ranges::find(mesh.attributes, formats::array_name(asked.name), &formats::NamedValues::name);
     if (found == mesh.attributes.end()) {
         std::vector<std::string_view> names;
         for (const formats::NamedValues& attribute : mesh.attributes) names.push_back(attribute.name);
         throw InvalidInput("the mesh has no attribute '" + asked.name + "' to color by; it has " +
-                           (names.empty() ? "none" : listed(names)));
+                           (names.empty() ? "none: reconstruct --attribute NAME keeps them" : listed(names)));
     }
     if (asked.component && *asked.component >= found->components)
         throw InvalidInput("attribute '" + asked.name + "' has no component " +

@@ -111,7 +111,9 @@ std::optional<int> listen_on(Address& address) {
 
 [[noreturn]] void refuse(const std::string& address, int error) {
     throw AddressUnavailable(error == EADDRINUSE
-                                 ? fmt::format("cannot listen on {}: the address is in use", address)
+                                 ? fmt::format("cannot listen on {}: the address is in use, perhaps by another "
+                                               "meniscusd: --listen names another one",
+                                               address)
                                  : fmt::format("cannot listen on {}: {}", address, std::strerror(error)));
 }
 

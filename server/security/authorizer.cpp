@@ -75,8 +75,9 @@ Caller Authorizer::admit(std::span<const std::string_view> authorization, const 
     }
     if (authorization.size() != 1)
         throw Refusal(Refusal::Kind::unauthenticated,
-                      fmt::format("the call has metadata authorization {} times; this server needs one: Bearer TOKEN",
-                                  authorization.size()));
+                      fmt::format("this server asks for a token, and the call has {} (metadata authorization: Bearer "
+                                  "TOKEN)",
+                                  authorization.empty() ? "none" : std::to_string(authorization.size())));
     auto caller = tokens->find(bearer_token(authorization.front()));
     if (!caller) throw Refusal(Refusal::Kind::unauthenticated, "the token is none of this server's");
     if (caller->role == Role::watcher && !only_looks(action))

@@ -100,7 +100,9 @@ Tokens Tokens::load(const std::string& path) {
         }
         // The message does not quote the word: it may be a token.
         const auto role = find_by_name<Role>(role_name);
-        if (!role) throw InvalidInput(fmt::format("{}:{}: the role must be {}", path, number, listed(names<Role>)));
+        if (!role)
+            throw InvalidInput(fmt::format("{}:{}: a line must be: ROLE NAME TOKEN; its role must be {}", path, number,
+                                           listed(names<Role>)));
         if (token.size() < shortest_token)
             throw InvalidInput(
                 fmt::format("{}:{}: the token has {} characters; it needs at least {} (make one with "

@@ -1,6 +1,7 @@
 """Links and paths of the documents, and what the documents promise of themselves: documents_test.py REPOSITORY."""
 
 import re
+import subprocess
 import sys
 import unittest
 from pathlib import Path
@@ -143,15 +144,16 @@ class Documents(unittest.TestCase):
         self.assertGreater(len(shown), 3)
         self.assertLessEqual(shown, {name.replace("-", "_") for name in settings})
 
-    def test_the_line_that_finds_the_programs_names_the_folders_in_which_they_are_built(self):
-        front = (REPOSITORY / "README.md").read_text()
-        path = re.search(r'^export PATH="(.*):\$PATH"$', front, re.MULTILINE).group(1)
-        folders = [folder.removeprefix("$PWD/.build/release/") for folder in path.split(":")]
+    def test_the_lines_that_find_the_programs_name_the_folders_in_which_they_are_built(self):
+        lines = subprocess.run([REPOSITORY / "deploy/paths"], capture_output=True, text=True, check=True).stdout
+        path = re.search(r"^export PATH=(.*):\$PATH$", lines, re.MULTILINE).group(1)
+        folders = [folder.partition("/.build/release/")[2] for folder in path.split(":")]
         for folder, program in zip(folders, ("meniscus", "meniscusd"), strict=True):
             built = (REPOSITORY / folder / "CMakeLists.txt").read_text()
             self.assertIn(f"add_executable({program} ", built)
-            for script in ("demo", "test"):
-                self.assertIn(f"/{folder}:", (REPOSITORY / "deploy" / script).read_text())
+        self.assertIn('\neval "$(deploy/paths)"', (REPOSITORY / "README.md").read_text())
+        for script in ("demo", "test"):
+            self.assertIn("\ndeploy/paths ", (REPOSITORY / "deploy" / script).read_text())
 
     def test_the_front_page_is_short(self):
         self.assertLessEqual(len((REPOSITORY / "README.md").read_text().splitlines()), 150)

@@ -5,6 +5,7 @@ import { join } from 'node:path';
 import { describe, it } from 'node:test';
 import { missing, screenshot } from './support/browser.mjs';
 import { lattice, writeParticles } from './support/particles.mjs';
+import { measureWater } from './support/pictures.mjs';
 import { startServer, startUploader } from './support/programs.mjs';
 import { open, surface } from './support/viewer.mjs';
 
@@ -22,7 +23,29 @@ describe('the panels', { skip: missing }, () => {
       await surface(page);
       assert.equal(await page.locator('#frame').innerText(), '0');
       assert.equal(await page.locator('#at').innerText(), 'frame 0');
-      for (const tool of ['cut', 'probe', 'ruler', 'beside', 'color']) await page.click(`#${tool}`);
+      // The camera that follows leaves room for a panel that opens.
+      await page.click('#color');
+      const panel = await page.locator('#color-panel').boundingBox();
+      const clip = { x: 0, y: 60, width: viewport.width, height: viewport.height - 200 };
+      const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done))));
+      const looks = [];
+      for (let look = 0; look < 2; ++look) {
+        await page.click('#look');
+        await drawn();
+        looks.push(await page.screenshot({ clip }));
+      }
+      const { left } = await measureWater(await open(), ...looks);
+      assert.ok(left > panel.x + panel.width, `the water begins at ${left}, below ${JSON.stringify(panel)}`);
+      await page.click('#color');
+      for (const tool of ['color', 'cut', 'probe', 'ruler', 'beside']) {
+        await page.click(`#${tool}`);
+        // The one that was opened lies where it is seen, however many are open.
+        const [corner, title] = await Promise.all(
+          ['#corner', `#${tool}-panel h2`].map((selector) => page.locator(selector).boundingBox()),
+        );
+        const bottom = title.y + title.height;
+        assert.ok(title.y >= corner.y && bottom <= corner.y + corner.height, `${tool}: ${bottom}`);
+      }
       const titles = await page.locator('#overlay h2, .panel h2').allInnerTexts();
       assert.deepEqual(titles, ['Figures', 'Color', 'Cut', 'Probe', 'Ruler', 'Beside']);
       await page.getByText('No attribute is named in this session: --attribute velocity names one.').waitFor();

@@ -21,6 +21,7 @@
 #include "cli/print/visible_errors.hpp"
 #include "cli/print/warnings.hpp"
 #include "cli/surfaces/mesh_check.hpp"
+#include "meniscus/client/errors.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
 
@@ -119,6 +120,10 @@ int run(int argc, const char* const* argv) {
         return report(e.what(), bad_input);
     } catch (const LimitExceeded& e) {
         return report(e.what(), bad_input);
+    } catch (const client::ServerError& e) {
+        const bool is_a_stranger = e.code() == client::ErrorCode::unauthenticated;
+        return report(e.what() + std::string(is_a_stranger ? "; --token-file or MENISCUS_TOKEN gives a token" : ""),
+                      failure);
     } catch (const std::bad_alloc&) {
         return report("out of memory", failure);
     } catch (const std::exception& e) {

@@ -30,7 +30,11 @@ void print_once(const TopOptions& options) {
     FrameRates rates;
     rates.update(client.sessions(), std::chrono::steady_clock::now());
     std::this_thread::sleep_for(options.interval);
-    std::cout << session_table(rates.update(client.sessions(), std::chrono::steady_clock::now()));
+    const auto rows = rates.update(client.sessions(), std::chrono::steady_clock::now());
+    if (rows.empty())
+        std::cerr << "meniscus: " << options.server.address << " has no sessions\n";
+    else
+        std::cout << session_table(rows);
 }
 
 std::string title(const TopOptions& options, std::size_t sessions) {

@@ -41,7 +41,7 @@ inline constexpr auto splashsurf_rows = std::to_array<SplashsurfRow>({
      "the adaptive grid takes the place of decimation"},
     {"--mesh-smoothing-iters, --mesh-smoothing-weights, --mesh-smoothing-weights-normalization, "
      "--output-smoothing-weights, --output-raw-mesh",
-     "--field smooth", "the default: a smooth field instead of a smoothed mesh, measured"},
+     "--field smooth", "the default: a smooth field (measured) instead of a smoothed mesh"},
     {"--generate-quads", "--quads", "within a level of the grid; the criteria's defaults, fixed"},
     {"--quad-max-edge-diag-ratio, --quad-max-normal-angle, --quad-max-interior-angle", "",
      "those of --quads are 1.75, 10° and 135°"},

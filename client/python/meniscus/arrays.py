@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any, Mapping, NamedTuple, Optional
 
 import numpy as np
@@ -84,6 +85,10 @@ def _without_mask(value: Any, what: str) -> Any:
 
 
 def _positions(value: Any) -> Array:
+    if isinstance(value, (str, bytes, os.PathLike)):
+        raise InvalidInput(f"positions is {repr(value)[:72]}, must be an array: read_particles() reads a file")
+    if isinstance(getattr(value, "positions", None), np.ndarray):  # Particles, or an object like it
+        raise InvalidInput(f"positions is of type {type(value).__name__}, must be an array: give its .positions")
     array = _as_array(value, "positions")
     if array.size == 0 and array.ndim in (1, 2):
         return np.empty((0, 3), np.float32)

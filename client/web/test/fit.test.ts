@@ -30,8 +30,8 @@ describe('framing', () => {
     all: readonly Vector3[],
     margins: Margins,
   ): number[] {
-    const { top, right, bottom } = margins;
-    const free = { width: 1 - right / width, height: 1 - (top + bottom) / height };
+    const { top, right, bottom, left } = margins;
+    const free = { width: 1 - (left + right) / width, height: 1 - (top + bottom) / height };
     const { target, distance } = framing(points, all, direction, camera, free);
     camera.position.copy(target).addScaledVector(direction, distance);
     putInTheMiddle(camera, margins, width, height);
@@ -39,13 +39,19 @@ describe('framing', () => {
     camera.updateMatrixWorld();
     const places = seen.map((point) => point.clone().project(camera));
     const [xs, ys] = [places.map(({ x }) => ((x + 1) / 2) * width), places.map(({ y }) => ((1 - y) / 2) * height)];
-    return [Math.min(...xs), width - right - Math.max(...xs), Math.min(...ys) - top, height - bottom - Math.max(...ys)];
+    return [
+      Math.min(...xs) - left,
+      width - right - Math.max(...xs),
+      Math.min(...ys) - top,
+      height - bottom - Math.max(...ys),
+    ];
   }
 
   it.each([
-    { top: 0, right: 0, bottom: 0 },
-    { top: 0, right: 300, bottom: 80 },
-    { top: 120, right: 0, bottom: 60 },
+    { top: 0, right: 0, bottom: 0, left: 0 },
+    { top: 0, right: 300, bottom: 80, left: 0 },
+    { top: 0, right: 200, bottom: 80, left: 250 },
+    { top: 120, right: 0, bottom: 60, left: 0 },
   ])('has all points in what is free of the picture, in its middle, close to its borders: %o', (margins) => {
     const [left, right, top, bottom] = away(ends, ends, [], margins) as [number, number, number, number];
     expect(Math.min(left, right, top, bottom)).toBeGreaterThan(0);
@@ -54,7 +60,7 @@ describe('framing', () => {
     expect(Math.abs(top - bottom)).toBeLessThan(2);
   });
 
-  const none = { top: 0, right: 0, bottom: 0 };
+  const none = { top: 0, right: 0, bottom: 0, left: 0 };
   it('does not let a few that are far away make the others small', () => {
     const few = [new Vector3(0, 40, 0), new Vector3(60, 0, 0)];
     const [left, right, top, bottom] = away([...filling, ...few], ends, [], none) as [number, number, number, number];

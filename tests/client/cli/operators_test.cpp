@@ -90,6 +90,22 @@ TEST_F(Operators, AskForHealthAloneAndAreToldWhatAFullServerIs) {
     EXPECT_NE(refused.err.find("/healthz"), std::string::npos) << refused.err;
 }
 
+TEST_F(Operators, AreToldHowToGiveATokenAndWhatTheServerDoesNotOffer) {
+    formats::write_file(directory / "tokens", "uploader ada 0123456789secret\n");
+    std::filesystem::permissions(directory / "tokens", std::filesystem::perms::owner_read);
+    server::ServerOptions guarded = options();
+    guarded.listen = "127.0.0.1:0";
+    guarded.tokens = (directory / "tokens").string();
+    const server::Server other(guarded);
+    const ProcessResult refused = run_process(MENISCUS_CLI, {"sessions", "--server", other.address()});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_NE(refused.err.find("asks for a token, and the call has none"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("; --token-file or MENISCUS_TOKEN gives a token\n"), std::string::npos) << refused.err;
+    const ProcessResult none = run({"recordings"});
+    EXPECT_EQ(none.exit_code, 1);
+    EXPECT_NE(none.err.find("meniscusd --record DIR does (not offered)\n"), std::string::npos) << none.err;
+}
+
 TEST_F(Operators, ListSessionsForPeopleAndForPrograms) {
     const ProcessResult table = run({"sessions"});
     EXPECT_EQ(table.exit_code, 0) << table.err;
@@ -104,10 +120,13 @@ TEST_F(Operators, ListSessionsForPeopleAndForPrograms) {
 
 TEST_F(Operators, SayThatThereAreNoSessions) {
     client.delete_session(id);
-    const ProcessResult result = run({"sessions"});
-    EXPECT_EQ(result.exit_code, 0);
-    EXPECT_EQ(result.out, "");
-    EXPECT_EQ(result.err, "meniscus: " + server.address() + " has no sessions\n");
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"sessions"}, {"top", "--interval", "0.1"}}) {
+        const ProcessResult result = run(command);
+        EXPECT_EQ(result.exit_code, 0);
+        EXPECT_EQ(result.out, "");
+        EXPECT_EQ(result.err, "meniscus: " + server.address() + " has no sessions\n");
+    }
     EXPECT_EQ(run({"sessions", "--json"}).out, "[]\n");
 }
 

@@ -11,6 +11,7 @@
 #include "formats/meshes/mesh_readers.hpp"
 #include "formats/meshes/mesh_writers.hpp"
 #include "formats/meshes/pvd_writer.hpp"
+#include "formats/particles/particle_writer.hpp"
 #include "formats/recordings/brick_file.hpp"
 #include "meniscus/canonical_order.hpp"
 #include "sample_files.hpp"
@@ -47,6 +48,19 @@ TEST(MeshWriters, WriteAnEmptyMesh) {
     }
 }
 
+TEST(ReadMesh, RefusesAFileOfParticles) {
+    const TemporaryDirectory directory;
+    const std::vector<float> positions{0, 0, 0, 1, 0, 0};
+    ParticleFrame frame;
+    frame.positions = positions;
+    formats::write_particle_ply(directory / "p.ply", frame);
+    formats::write_particle_vtp(directory / "p.vtp", frame);
+    for (const char* name : {"p.ply", "p.vtp"}) {
+        const std::string message = refusal([&] { formats::read_mesh(directory / name); });
+        EXPECT_NE(message.find("2 points and no triangles"), std::string::npos) << message;
+    }
+}
+
 TEST(MeshWriters, KeepNeighboringLatticePointsApartFarFromTheOrigin) {
     const TemporaryDirectory directory;
     // The coordinates are multiples of a length that is no power of two, where float32 steps matter most.
@@ -55,6 +69,8 @@ TEST(MeshWriters, KeepNeighboringLatticePointsApartFarFromTheOrigin) {
         mesh.cell_size = 64.0 * 1.0001 / 3.0;
         mesh.offset_bits = 6;
         for (std::int32_t i = 0; i < 19; ++i) mesh.vertices.push_back({origin + i, 0, 0});
+        mesh.triangles = {{0, 1, 2}};
+        mesh.levels[0] = {0, 1};
         formats::write_ply(directory / "m.ply", mesh);
         formats::write_obj(directory / "m.obj", mesh);
         for (const char* name : {"m.ply", "m.obj"}) {

@@ -32,6 +32,11 @@ TEST(XyzReader, RefusesASizeThatIsNoMultipleOfTwelve) {
     EXPECT_NE(message.find("multiple of 12"), std::string::npos) << message;
 }
 
+TEST(XyzReader, RefusesTextThatHasTheSizeOfTriples) {
+    for (const char* text : {"0.1 0.2 0.3\n", "1e3,-2,+3.5\n"})
+        EXPECT_NE(refusal([&] { formats::read_xyz("f", text); }).find("it is text"), std::string::npos) << text;
+}
+
 TEST(ReadParticles, RefusesMissingFilesFoldersAndUnknownExtensions) {
     const TemporaryDirectory directory;
     EXPECT_NE(refusal([&] { formats::read_particles(directory / "none.vtk"); }).find("no such file"),

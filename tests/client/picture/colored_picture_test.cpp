@@ -121,6 +121,11 @@ TEST(ShownValues, AreMagnitudesComponentsColorsOrIds) {
     EXPECT_TRUE(ids.nearest);
 }
 
+TEST(ShownValues, AreFoundByTheNameThatTheFileOfTheParticlesHas) {
+    const auto mesh = square(named<float>("temperature__k_", ElementType::float32, 1, {0, 1, 2, 3}));
+    EXPECT_EQ(values_to_show(mesh, "Temperature (K)").numbers, (std::vector<float>{0, 1, 2, 3}));
+}
+
 TEST(ShownValues, AreRefusedWithWhatThereIs) {
     const auto mesh = square(named<float>("age", ElementType::float32, 1, {0, 1, 2, 3}));
     for (const auto& [what, words] : std::vector<std::pair<std::string, std::string>>{
@@ -219,7 +224,8 @@ TEST_F(ColoredPictureCommand, DrawsAFileAndRefusesWhatItCannotDraw) {
     const test::ProcessResult drawn =
         test::run_meniscus(arguments(aged, {"--color", "age", "--color-map", "magma", "--range", "-1,5"}));
     EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
-    expect_refused(arguments(plain, {"--color", "age"}), {"no attribute 'age' to color by; it has none"});
+    expect_refused(arguments(plain, {"--color", "age"}),
+                   {"no attribute 'age' to color by; it has none: reconstruct --attribute NAME"});
     expect_refused(arguments(aged, {"--color", "age", "--range", "5,-1"}), {"--range", "5", "-1", "less"});
     EXPECT_NE(test::run_meniscus(arguments(aged, {"--color", "age", "--wireframe"})).exit_code, 0);
     EXPECT_NE(test::run_meniscus(arguments(aged, {"--color-map", "magma"})).exit_code, 0);

@@ -138,8 +138,8 @@ TEST_F(TokensOnAServer, AreAskedForByEveryCall) {
         const char* words;
     };
     const std::vector<Case> cases{
-        {{}, "authorization 0 times"},
-        {{"Bearer " + ada, "Bearer " + ada}, "authorization 2 times"},
+        {{}, "this server asks for a token, and the call has none"},
+        {{"Bearer " + ada, "Bearer " + ada}, "this server asks for a token, and the call has 2"},
         {{"Bearer wrong"}, "none of this server's"},
         {{"Bearer " + ada + "0"}, "none of this server's"},
         {{"Bearer " + ada.substr(1)}, "none of this server's"},
@@ -330,7 +330,8 @@ TEST(Tokens, AreRefusedWithTheLineAndWithoutTheToken) {
         {"uploader a\0da 0123456789secret\n"s, ":1: the name has a control character, 0x00, behind 1 others"},
         {"# one\nuploader \x1b[2Jada 0123456789secret\n", ":2: the name has a control character, 0x1b"},
         {"uploader ada\x7f 0123456789secret\n", ":1: the name has a control character, 0x7f"},
-        {"owner ada 0123456789secret\n", ":1: the role must be uploader, watcher or admin"},
+        {"owner ada 0123456789secret\n",
+         ":1: a line must be: ROLE NAME TOKEN; its role must be uploader, watcher or admin"},
         {"# only\nuploader ada 56789secret\n", ":2: the token has 11 characters; it needs at least 16"},
         {"uploader 0123456789secret ada\n", ":1: the token has 3 characters"},
         {"uploader ada 0123456789secret\nadmin eve 0123456789secret\n", ":2: the token is there twice"},

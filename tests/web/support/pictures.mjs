@@ -24,8 +24,8 @@ export function contrast(a, b) {
 
 /**
  * Which pixels are water is what two looks of the same mesh differ by. Gives the relative luminance (WCAG) of the mean color of the water, and of
- * what lies from 2 to 8 pixels beside it; and the parts of the picture's width and height that the water takes, without the outermost 1 % of it
- * on each side.
+ * what lies from 2 to 8 pixels beside it; the parts of the picture's width and height that the water takes, without the outermost 1 % of it
+ * on each side; and the leftmost pixel of it.
  */
 export async function measureWater(page, water, wires) {
   return page.evaluate(
@@ -67,6 +67,7 @@ export async function measureWater(page, water, wires) {
       };
       return {
         pixels: inside.length,
+        left: inside.reduce((least, i) => Math.min(least, i % width), width),
         water: luminance((i) => mask[i]),
         beside: luminance((i) => wide[i] && !close[i]),
         wide: extent((i) => i % width, width),

@@ -7,7 +7,7 @@ import type { Theme } from '../view/environment';
 import type { UpAxis } from '../view/up_axis';
 import { Viewer } from '../view/viewer';
 
-const noMargins = { top: 0, right: 0, bottom: 0 };
+const noMargins = { top: 0, right: 0, bottom: 0, left: 0 };
 
 export class ThumbnailPainter {
   private readonly canvas = document.createElement('canvas');

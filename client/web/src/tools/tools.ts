@@ -12,7 +12,7 @@ import type { WatchState } from '../stream/watch_state';
 import { download } from '../ui/download';
 import type { PageState } from '../ui/link';
 import { element } from '../ui/page';
-import { coveredMargins, keepPanelsAboveControls } from '../ui/panels';
+import { coveredMargins, keepPanelsAboveControls, scrollToPanel } from '../ui/panels';
 import type { Playback } from '../ui/playback';
 import { decimalsOf, lengthText } from '../ui/texts';
 import type { ToolsState } from '../ui/tools_link';
@@ -167,7 +167,10 @@ export class Tools {
       this.events.failed(reason);
     });
     for (const [id, action] of Object.entries(this.actions))
-      element(id, HTMLButtonElement).addEventListener('click', action);
+      element(id, HTMLButtonElement).addEventListener('click', () => {
+        action();
+        scrollToPanel(id);
+      });
     this.upSelect.addEventListener('change', () => {
       if (!isAxis(this.upSelect.value)) return;
       this.chooseUp(this.upSelect.value);

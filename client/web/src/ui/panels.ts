@@ -10,13 +10,23 @@ export function coveredMargins(water: HTMLCanvasElement): Margins {
   const panels = element('panels', HTMLElement).getBoundingClientRect();
   const there = figures.width > 0 && figures.left < canvas.right && figures.top < canvas.bottom;
   const beside = there && figures.width < 0.45 * canvas.width;
-  const below = panels.height > 0 && panels.width > controls.width / 2 ? panels.top : controls.top;
+  const narrow = panels.width > controls.width / 2;
+  const below = panels.height > 0 && narrow ? panels.top : controls.top;
+  const right = beside ? canvas.right - figures.left : 0;
+  const left = panels.height > 0 && !narrow && panels.left < canvas.right ? panels.right - canvas.left : 0;
   return {
     top: there && !beside ? Math.max(0, figures.bottom - canvas.top) : 0,
-    right: beside ? canvas.right - figures.left : 0,
+    right,
+    // Where that leaves less than half, the water is rather under the panels than small.
+    left: left + right < canvas.width / 2 ? Math.max(0, left) : 0,
     // Neither is there in a frame of another page.
     bottom: controls.height > 0 ? Math.max(0, canvas.bottom - below) : 0,
   };
+}
+
+/** Scrolls to the panel of a tool, if it has one that is open: with several open, it may lie below the others. */
+export function scrollToPanel(tool: string): void {
+  document.getElementById(`${tool}-panel`)?.scrollIntoView({ block: 'nearest' });
 }
 
 /** Lays the panels above the controls, however many lines these have. */

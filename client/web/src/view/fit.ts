@@ -6,16 +6,17 @@ export interface Margins {
   readonly top: number;
   readonly right: number;
   readonly bottom: number;
+  readonly left: number;
 }
 
 /** Puts the middle of what is free of `width` x `height` pixels at what the camera looks at. */
 export function putInTheMiddle(
   camera: PerspectiveCamera,
-  { top, right, bottom }: Margins,
+  { top, right, bottom, left }: Margins,
   width: number,
   height: number,
 ): void {
-  camera.setViewOffset(width, height, right / 2, (bottom - top) / 2, width, height);
+  camera.setViewOffset(width, height, (right - left) / 2, (bottom - top) / 2, width, height);
 }
 
 /** Part of the picture that stays free around the points. */

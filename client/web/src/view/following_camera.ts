@@ -146,9 +146,9 @@ export class FollowingCamera {
   private placeToSee(): CameraPlace | undefined {
     const { points, all, width, height, covered } = this.scene.sight();
     if (points.length + all.length === 0 || width === 0 || height === 0) return undefined;
-    const { top, right, bottom } = covered;
+    const { top, right, bottom, left } = covered;
     const free = {
-      width: Math.max(0.2, 1 - right / width),
+      width: Math.max(0.2, 1 - (left + right) / width),
       height: Math.max(0.2, 1 - (top + bottom) / height),
     };
     const direction =

@@ -1,5 +1,7 @@
 """Arrays of frames; ``take(positions, levels=, attributes=)`` is Reconstructor.reconstruct, or a stream's push."""
 
+from pathlib import Path
+
 import meniscus
 import numpy as np
 
@@ -46,8 +48,10 @@ SHAPE = "positions has the shape"
 positions = {
     "None": (None, "positions", "object|no array"),
     "an object": (object(), "positions", "object"),
-    "a text": ("water", "positions", "real numbers"),
-    "bytes": (b"water", "positions", "real numbers"),
+    "a text": ("water.vtk", "positions is 'water.vtk', must be an array", "read_particles"),
+    "bytes": (b"water", "positions is b'water', must be an array"),
+    "a path": (Path("water.vtk"), "positions is ", "read_particles"),
+    "particles of a file": (meniscus.Particles(np.zeros((1, 3), np.float32), None, {}, ()), "give its .positions"),
     "a dict": ({"x": 1}, "positions", "real numbers"),
     "a set": ({1, 2, 3}, "positions", "real numbers"),
     "a generator": (_generator(), "positions", "real numbers"),
