@@ -176,8 +176,8 @@ private:
         }
         now_ |= BlockMask{value} << row;
         known_now_ |= BlockMask{wanted} << row;
-        const CellsAround unsigned_cells = cells_ / undrawn & ~(cells_ / all_outside | cells_ / all_inside) & reach;
-        cells_ |= unsigned_cells * ((value & 1) != 0 ? all_inside : all_outside);
+        const CellsAround without_sign = cells_ / undrawn & ~(cells_ / all_outside | cells_ / all_inside) & reach;
+        cells_ |= without_sign * ((value & 1) != 0 ? all_inside : all_outside);
     }
     static int join(unsigned value) { return static_cast<int>((value & 1) | value >> 1); }
     static unsigned spread(int symbol) { return static_cast<unsigned>((symbol & 1) | (symbol & 2) << 1); }
