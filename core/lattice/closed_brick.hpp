@@ -64,9 +64,6 @@ public:
     T& operator[](int place) { return elements_[place + border]; }
     const T& operator[](int place) const { return elements_[place + border]; }
     T* data() { return elements_ + border; }
-    void fill(const T& value) {
-        for (T& element : elements_) element = value;
-    }
 
 private:
     static constexpr int border = closed_steps(7);

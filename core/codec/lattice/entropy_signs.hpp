@@ -96,21 +96,28 @@ public:
     /// The lattice has its blocks listed. When it decodes, its signs are filled.
     void run(BrickLattice& lattice) {
         lattice_ = &lattice;
-        for (const std::uint16_t place : lattice_->blocks()) {
-            undrawn_[place] = draws_nothing(place) ? unknown : drawn;
-            known_[place] = 0;
-        }
+        for (const std::uint16_t place : lattice_->blocks())
+            if (draws_nothing(place)) undrawn_[place] = undrawn;
         for (const std::uint16_t place : lattice_->blocks()) code_block(place);
         // Places that the next brick does not use must say nothing.
         for (const std::uint16_t place : lattice_->blocks()) {
-            undrawn_[place] = drawn;
+            undrawn_[place] = 0;
             known_[place] = 0;
+            base_[place] = 0;
         }
     }
 
 private:
-    /// What is known of a sign: of a point, or of all points of a cell that draws nothing.
-    enum State : std::uint8_t { outside = 0, unknown = 1, inside = 2, drawn = 3 };
+    enum State : std::uint8_t { outside = 0, unknown = 1, inside = 2 };
+
+    /// Bits of a cell that draws nothing, and of the sign that all of its points have, once one is known.
+    static constexpr std::uint8_t all_outside = 1, all_inside = 2, undrawn = 4;
+    /// Such a byte of each of the eight cells around a block, the cell down by closed_steps(i) in byte 7 - i.
+    using CellsAround = std::uint64_t;
+    static constexpr CellsAround one_of_each = 0x0101010101010101;
+    static constexpr CellsAround no_step_along_x = 0x0100010001000100;
+    static constexpr CellsAround no_step_along_y = 0x0101000001010000;
+    static constexpr CellsAround no_step_along_z = 0x0101010100000000;
 
     /// Whether a cell draws nothing, as all of the brick's cells that have no level.
     bool draws_nothing(int place) const {
@@ -120,32 +127,33 @@ private:
 
     void code_block(int place) {
         const BlockMask points = lattice_->corners[place];
-        if (points == 0) return;
         coder_.reserve(16);
         // The signs as they get known, of the encoder's too: contexts must not look ahead.
         truth_ = lattice_->inside[place];
         now_ = 0;
         known_now_ = 0;
         place_ = place;
-        unsigned undrawn = 0;
-        for (int i = 0; i < 8; ++i) undrawn |= static_cast<unsigned>(undrawn_[place - closed_steps(i)] != drawn) << i;
+        CellsAround around = 0;
+        for (int i = 0; i < 8; ++i) around |= CellsAround{undrawn_[place - closed_steps(i)]} << 8 * (7 - i);
+        cells_ = around;
         // A row with any points has its first.
         for (BlockMask rows = points & low_face(0); rows != 0; rows &= rows - 1) {
             const int row = lowest_bit(rows);
-            code_row(point_coordinate(row, 1), point_coordinate(row, 2), static_cast<unsigned>(points >> row & 15),
-                     undrawn);
+            code_row(point_coordinate(row, 1), point_coordinate(row, 2), static_cast<unsigned>(points >> row & 15));
         }
+        if (cells_ != around)
+            for (int i = 0; i < 8; ++i)
+                undrawn_[place - closed_steps(i)] = static_cast<std::uint8_t>(cells_ >> 8 * (7 - i));
         lattice_->inside[place] = now_ | (truth_ & ~points);  // an encoder's signs of middles stay
         known_[place] = known_now_;
+        base_[place] = static_cast<std::int8_t>((now_ & 1) != 0 ? 1 : -1);
     }
 
-    void code_row(int y, int z, unsigned wanted, unsigned undrawn) {
+    void code_row(int y, int z, unsigned wanted) {
         const int row = point_bit(0, y, z);
         // Cells that hold the whole row: no step along x; those that hold its first point alone: a step.
-        const unsigned reach = (y == 0 ? 0xFFU : 0x33U) & (z == 0 ? 0xFFU : 0x0FU);
-        const unsigned whole = undrawn & reach & 0x55U;
-        const unsigned first = undrawn & reach & 0xAAU;
-        const State of_row = sign_of(whole);
+        const CellsAround reach = (y == 0 ? one_of_each : no_step_along_y) & (z == 0 ? one_of_each : no_step_along_z);
+        const State of_row = sign_of(reach & no_step_along_x);
         unsigned value = static_cast<unsigned>(truth_ >> row) & wanted;
         if (of_row != unknown) {
             const int certain = of_row == inside ? 1 : 0;
@@ -157,30 +165,29 @@ private:
             else
                 value =
                     static_cast<unsigned>(coder_.code(tables_.ones, certain_ones + certain, static_cast<int>(value)));
-        } else if (wanted == 15) {
-            value = code_four(y, z, sign_of(first), value);
-        } else if (wanted == 5) {
-            value = code_two(y, z, sign_of(first), value);
         } else {
-            value = code_one(y, z, sign_of(first), value);
+            const State certain_first = sign_of(reach & ~no_step_along_x);
+            if (wanted == 15)
+                value = code_four(y, z, certain_first, value);
+            else if (wanted == 5)
+                value = code_two(y, z, certain_first, value);
+            else
+                value = code_one(y, z, certain_first, value);
         }
         now_ |= BlockMask{value} << row;
         known_now_ |= BlockMask{wanted} << row;
-        const State seen = (value & 1) != 0 ? inside : outside;
-        for (unsigned left = whole | first; left != 0; left &= left - 1) {
-            State& state = undrawn_[place_ - closed_steps(lowest_bit(left))];
-            if (state == unknown) state = seen;
-        }
+        const CellsAround without_sign = cells_ / undrawn & ~(cells_ / all_outside | cells_ / all_inside) & reach;
+        cells_ |= without_sign * ((value & 1) != 0 ? all_inside : all_outside);
     }
     static int join(unsigned value) { return static_cast<int>((value & 1) | value >> 1); }
     static unsigned spread(int symbol) { return static_cast<unsigned>((symbol & 1) | (symbol & 2) << 1); }
 
-    State sign_of(unsigned cells) const {
-        for (; cells != 0; cells &= cells - 1) {
-            const State state = undrawn_[place_ - closed_steps(lowest_bit(cells))];
-            if (state == inside || state == outside) return state;
-        }
-        return unknown;
+    /// The sign of the points that these cells share: by the first whose sign is known. cells: a bit in the byte of
+    /// each.
+    State sign_of(CellsAround cells) const {
+        const CellsAround known = (cells_ / all_outside | cells_ / all_inside) & cells;
+        if (known == 0) return unknown;
+        return (cells_ >> highest_bit(known) & all_inside) != 0 ? inside : outside;
     }
 
     /// Signs and known points of a row up to four points back along y and z, as bits 0 to 3.
@@ -196,14 +203,30 @@ private:
         return {static_cast<unsigned>(lattice_->inside[place] >> row & known_[place] >> row & 15),
                 static_cast<unsigned>(known_[place] >> row & 15)};
     }
-    /// The last known point of the row in the block before along x, at most this many before the row's first.
-    State west_of(int y, int z, int first, int last) const {
-        const int place = place_ - closed_step(0);
-        for (int back = first; back <= last; back *= 2) {
-            const int bit = point_bit(base_cell_size - back, y, z);
-            if ((known_[place] >> bit & 1) != 0) return (lattice_->inside[place] >> bit & 1) != 0 ? inside : outside;
-        }
-        return unknown;
+    /// The sign of the nearest of these points of a block, which have the highest bits, that is known.
+    State nearest_of(int place, BlockMask points) const {
+        points &= known_[place];
+        if (points == 0) return unknown;
+        return (lattice_->inside[place] >> highest_bit(points) & 1) != 0 ? inside : outside;
+    }
+    /// The last known point of the row in the block before along x, at most this far before the row's first: 1, 2 or 4.
+    State west_of(int y, int z, int last) const {
+        const BlockMask points = last == 1 ? 8 : last == 2 ? 12 : 13;
+        return nearest_of(place_ - closed_step(0), points << point_bit(0, y, z));
+    }
+    /// The nearest known point 1, 2 or 4 points before one of the block's along y or z, on which that is the
+    /// at-th. line: the first of these.
+    State nearest_before(int axis, int at, int line) const {
+        // Distances that stay in the block, and those that reach the one before.
+        static constexpr std::array<std::array<BlockMask, base_cell_size>, 2> own{
+            {{0, 0x1, 0x11, 0x110}, {0, 0x1, 0x10001, 0x100010000}}};
+        static constexpr std::array<std::array<BlockMask, base_cell_size>, 2> before{
+            {{0x1101, 0x1010, 0x100, 0x1000}, {0x1000100000001, 0x1000000010000, 0x100000000, 0x1000000000000}}};
+        const auto a = static_cast<std::size_t>(axis - 1);
+        const auto i = static_cast<std::size_t>(at);
+        const BlockMask here = known_now_ & own[a][i] << line;
+        if (here != 0) return (now_ >> highest_bit(here) & 1) != 0 ? inside : outside;
+        return nearest_of(place_ - closed_step(axis), before[a][i] << line);
     }
 
     unsigned code_four(int y, int z, State certain_first, unsigned value) {
@@ -211,7 +234,7 @@ private:
         const Row below = row_at(y, z - 1);
         const bool has_north = north.known == 15;
         const bool has_below = below.known == 15;
-        const State west = certain_first != unknown ? certain_first : west_of(y, z, 1, 1);
+        const State west = certain_first != unknown ? certain_first : west_of(y, z, 1);
         const unsigned before = west != unknown ? (west == inside ? 1U : 0U)
                                 : has_north     ? north.signs & 1
                                 : has_below     ? below.signs & 1
@@ -241,7 +264,7 @@ private:
         const unsigned has_below = (below.known & 5) == 5 ? 1 : 0;
         const auto n = has_north != 0 ? static_cast<unsigned>(join(north.signs & 5)) : 0U;
         const auto b = has_below != 0 ? static_cast<unsigned>(join(below.signs & 5)) : 0U;
-        const State west = certain_first != unknown ? certain_first : west_of(y, z, 1, 2);
+        const State west = certain_first != unknown ? certain_first : west_of(y, z, 2);
         const unsigned before = west != unknown ? (west == inside ? 1U : 0U) : has_north != 0 ? n & 1 : b & 1;
         const Row corner = row_at(y - 2, z - 2);
         const unsigned middle = (corner.known & 5) != 5   ? 1
@@ -252,41 +275,33 @@ private:
         return spread(coder_.code(tables_.twos, static_cast<int>(context), join(value)));
     }
 
-    /// A point of the base lattice, that many blocks away.
+    /// Of the base lattice's point that many blocks away: 1 inside, -1 outside, 0 unknown.
     int base_point(int dx, int dy, int dz) const {
-        const int place = place_ + dx + dy * closed_step(1) + dz * closed_step(2);
-        return (known_[place] & 1) == 0 ? 0 : (lattice_->inside[place] & 1) != 0 ? 1 : -1;
+        return base_[place_ + dx + dy * closed_step(1) + dz * closed_step(2)];
     }
 
     unsigned code_one(int y, int z, State certain_first, unsigned value) {
         if (certain_first != unknown)
             return static_cast<unsigned>(
                 coder_.code(tables_.ones, certain_ones + (certain_first == inside ? 1 : 0), static_cast<int>(value)));
-        const int west = west_of(y, z, 1, 4);
-        const auto nearest = [&](int axis) {
-            for (int back = 1; back <= 4; back *= 2) {
-                const Row row = axis == 1 ? row_at(y - back, z) : row_at(y, z - back);
-                if ((row.known & 1) != 0) return (row.signs & 1) != 0 ? int{inside} : int{outside};
-            }
-            return int{unknown};
-        };
-        const int neighbors = west + 3 * nearest(1) + 9 * nearest(2);
+        const int neighbors = west_of(y, z, 4) + 3 * nearest_before(1, y, point_bit(0, 0, z)) +
+                              9 * nearest_before(2, z, point_bit(0, y, 0));
         if (y != 0 || z != 0) {
             const unsigned shown = kind_of_face(y, z);
             return static_cast<unsigned>(
                 coder_.code(tables_.ones, EntropyTables::ones_of_corners + neighbors * 3 + static_cast<int>(shown),
                             static_cast<int>(value)));
         }
-        int sum = base_point(-1, -1, 0) + base_point(-1, 0, -1) + base_point(0, -1, -1) + base_point(1, -1, 0) +
-                  base_point(1, 0, -1) + base_point(0, 1, -1) + base_point(-1, 1, -1) + base_point(1, -1, -1) +
-                  base_point(-1, -1, -1);
+        const int of_cell =
+            base_point(-1, -1, 0) + base_point(-1, 0, -1) + base_point(0, -1, -1) + base_point(-1, -1, -1);
+        int sum = of_cell + base_point(1, -1, 0) + base_point(1, 0, -1) + base_point(0, 1, -1) + base_point(-1, 1, -1) +
+                  base_point(1, -1, -1);
         sum = sum < -2 ? 0 : sum < 0 ? 1 : sum == 0 ? 2 : sum < 3 ? 3 : 4;
         // A level-1 cell sees both signs at its corners: its last is unlike the others if those are alike.
         int alike = 0;
         if (lattice_->level[place_ - closed_steps(7)] == 1) {
-            int signs = 0;
-            for (int i = 1; i < 8; ++i) signs += static_cast<int>(lattice_->inside[place_ - closed_steps(i)] & 1);
-            alike = signs == 0 ? 1 : signs == 7 ? 2 : 0;
+            const int seven = of_cell + base_point(-1, 0, 0) + base_point(0, -1, 0) + base_point(0, 0, -1);
+            alike = seven == -7 ? 1 : seven == 7 ? 2 : 0;
         }
         return static_cast<unsigned>(
             coder_.code(tables_.ones, (neighbors * 5 + sum) * 3 + alike, static_cast<int>(value)));
@@ -301,14 +316,12 @@ private:
     Coder& coder_;
     const EntropyTables& tables_;
     BrickLattice* lattice_ = nullptr;
-    ClosedArray<BlockMask> known_;  ///< points coded so far
-    ClosedArray<State> undrawn_ = [] {
-        ClosedArray<State> all;
-        all.fill(drawn);
-        return all;
-    }();
-    int place_ = 0;  ///< of the block that is being coded
+    ClosedArray<BlockMask> known_;       ///< points coded so far
+    ClosedArray<std::int8_t> base_;      ///< of blocks coded so far, the sign of the first point: 1 inside, -1 outside
+    ClosedArray<std::uint8_t> undrawn_;  ///< of cells that draw nothing
+    int place_ = 0;                      ///< of the block that is being coded
     BlockMask truth_ = 0, now_ = 0, known_now_ = 0;
+    CellsAround cells_ = 0;
 };
 
 /// Whether beyond the brick's own faces lie coarser cells; needs all signs.

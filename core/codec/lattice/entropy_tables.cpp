@@ -1,5 +1,7 @@
 // The numbers lie in tables/, which meniscus-bench lattice-tables writes, with the SHA-256 of the frames that they were
-// made of: frequencies of symbols, context by context, whose sum is 4096.
+// made of: frequencies of symbols, context by context, whose sum is 4096. MENISCUS_EVEN_TABLES does without them, for
+// the program that makes them after their sizes have changed: all symbols are alike likely then, and bricks are not to
+// be sent.
 #include "codec/lattice/entropy_tables.hpp"
 
 #include <cstddef>
@@ -7,6 +9,33 @@
 
 namespace meniscus {
 namespace {
+
+#ifdef MENISCUS_EVEN_TABLES
+
+template <int symbols, int contexts>
+constexpr void make_even(Distributions<symbols, contexts>& table) {
+    for (auto& of_context : table.start)
+        for (int symbol = 0; symbol < symbols; ++symbol)
+            of_context[symbol] = static_cast<std::uint16_t>(probability_one * static_cast<unsigned>(symbol) / symbols);
+}
+
+constexpr EntropyTables make_tables() {
+    EntropyTables tables{};
+    make_even(tables.only_level);
+    make_even(tables.rows);
+    make_even(tables.cells);
+    make_even(tables.levels);
+    make_even(tables.fours);
+    make_even(tables.twos);
+    make_even(tables.ones);
+    make_even(tables.coarser);
+    make_even(tables.halves);
+    make_even(tables.offsets);
+    make_even(tables.normals);
+    return tables;
+}
+
+#else
 
 namespace numbers {
 
@@ -71,7 +100,8 @@ constexpr int set_some(Distributions<symbols, contexts>& table, const std::uint1
 }
 template <int symbols, int contexts, std::size_t count>
 constexpr void set(Distributions<symbols, contexts>& table, const std::uint16_t (&frequencies)[count]) {
-    static_assert(count == std::size_t{symbols} * contexts);
+    static_assert(count == std::size_t{symbols} * contexts,
+                  "make the tables anew: tests/benchmarks/lattice_tables/train");
     set_some(table, frequencies, 0);
 }
 
@@ -82,7 +112,8 @@ constexpr EntropyTables make_tables() {
     set(tables.cells, numbers::cells);
     set(tables.levels, numbers::levels);
     static_assert(std::size(numbers::fours_after_outside) + std::size(numbers::fours_after_inside) ==
-                  std::size_t{tables.fours.symbol_count} * tables.fours.context_count);
+                      std::size_t{tables.fours.symbol_count} * tables.fours.context_count,
+                  "make the tables anew: tests/benchmarks/lattice_tables/train");
     set_some(tables.fours, numbers::fours_after_inside, set_some(tables.fours, numbers::fours_after_outside, 0));
     set(tables.twos, numbers::twos);
     set(tables.ones, numbers::ones);
@@ -90,6 +121,9 @@ constexpr EntropyTables make_tables() {
     set(tables.halves, numbers::halves);
     set(tables.offsets, numbers::offsets);
     set(tables.normals, numbers::normals);
+    static_assert(std::size(numbers::weights) == sizeof tables.weights / sizeof(std::int16_t) &&
+                      std::size(numbers::expected) == sizeof tables.expected,
+                  "make the tables anew: tests/benchmarks/lattice_tables/train");
     const std::int16_t* weight = numbers::weights;
     const std::uint8_t* expected_class = numbers::expected;
     for (int length = 0; length < edge_lengths; ++length)
@@ -100,6 +134,8 @@ constexpr EntropyTables make_tables() {
             }
     return tables;
 }
+
+#endif
 
 }  // namespace
 
