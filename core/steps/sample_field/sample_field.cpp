@@ -182,6 +182,25 @@ void sample_wanted_points(State& state, FieldSource& field, Wanted wanted) {
 
 namespace {
 
+/// Whether the sampled points on a cell's closed box show both signs. Where no block is stored, all are outside.
+bool sees_both(const BlocksView& blocks, std::uint32_t block) {
+    const ClosedCell cell(blocks, block);
+    bool any_inside = false, any_outside = false;
+    for (int i = 0; i < 8; ++i) {
+        BlockMask points = ~BlockMask{0};
+        for (int axis = 0; axis < 3; ++axis)
+            if ((i >> axis & 1) != 0) points &= low_face(axis);
+        if (cell.block[i] == no_index) {
+            any_outside = true;
+            continue;
+        }
+        const BlockMask inside = blocks.inside[cell.block[i]] & points;
+        any_inside |= inside != 0;
+        any_outside |= inside != (blocks.sampled[cell.block[i]] & points);
+    }
+    return any_inside && any_outside;
+}
+
 /// Takes the cells into the band that a neighbor's samples show to hold surface; returns whether there were any.
 bool grow_band(State& state, const WantedLevel& wanted_level) {
     const BlocksView blocks = state.blocks();
@@ -190,8 +209,9 @@ bool grow_band(State& state, const WantedLevel& wanted_level) {
     const auto joining = [&](std::uint32_t brick, int w) {
         std::uint64_t cells = take_stale(state, StaleFor::band, brick, w) & ~levels.band(brick, w);
         if (cells != 0) cells &= levels.beside(1, brick, w) & signs.cells_seeing_both(brick, w);
-        return cells_where(state.grid.bricks[brick], w, cells,
-                           [&](std::uint32_t block) { return holds_at_a_face(joins_band, blocks, block); });
+        return cells_where(state.grid.bricks[brick], w, cells, [&](std::uint32_t block) {
+            return sees_both(blocks, block) && holds_at_a_face(joins_band, blocks, block);
+        });
     };
     return raise_levels(state, joining, wanted_level);
 }
