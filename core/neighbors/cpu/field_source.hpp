@@ -42,7 +42,13 @@ struct GroupValues {
 };
 
 using ClusterPoints = std::array<BlockMask, cluster_blocks>;
-using ClusterValues = std::array<std::array<float, 64>, cluster_blocks>;
+/// Values at some points of the blocks of a cluster.
+struct ClusterValues {
+    /// Each block's values in the order of its points' bits. Who asks says where those of a whole block shall go;
+    /// others are in `room`, with whole lanes to read.
+    std::array<float*, cluster_blocks> of;
+    float room[64 * cluster_blocks + WideLanes::count];
+};
 
 /// Arrays have room for max_points elements; a list's lanes beyond its points may be overwritten. A value is a pure
 /// function of the point's place in the world.
@@ -50,8 +56,7 @@ class FieldSource {
 public:
     virtual ~FieldSource() = default;
     virtual void values(const Int3& base_cell, PointList& points, float* values, unsigned worker) = 0;
-    /// The values at some lattice points of the blocks of a cluster (clusters.hpp), each block's by the points' bits;
-    /// values of other bits may be overwritten.
+    /// The values at some lattice points of the blocks of a cluster (clusters.hpp).
     virtual void cluster_values(const Int3& lowest_base_cell, const ClusterPoints& points, ClusterValues& values,
                                 unsigned worker) = 0;
     /// Unit vectors against the gradient; not-a-numbers where it vanishes.

@@ -33,13 +33,6 @@ void list_block_points(BlockMask points, const Int3& block, PointList& list) {
     }
 }
 
-/// Scatters values in the order of some points to the places of their bits; returns where the values end.
-const float* scatter(BlockMask points, const float* values, float* by_bit) {
-    for (BlockMask left = points; left != 0; left &= left - 1)
-        by_bit[lowest_bit(left)] = *values++;  // NOLINT(clang-analyzer-core.uninitialized.Assign): it was summed before
-    return values;
-}
-
 }  // namespace
 
 template <class Kernel>
@@ -54,40 +47,47 @@ void ParticleField<Kernel>::cluster_values(const Int3& lowest_base_cell, const C
     // A block with few points would fill registers badly, and its own list of neighbors would cost more than it saves
     // (core/README.md#sampling-clusters-16-and-48).
     constexpr int few = 16;
-    // Above this number of points, the regular grid of all 64 costs less than a list of these.
-    constexpr int most = 48;
     static_assert(few * cluster_blocks <= max_points);
     PointList pool;
+    float* next = values.room;
     for (int i = 0; i < cluster_blocks; ++i) {
         const BlockMask own = points[static_cast<std::size_t>(i)];
+        float*& out = values.of[static_cast<std::size_t>(i)];
         const int count = popcount(own);
         if (count <= few) {
             list_block_points(own, cluster_step(i), pool);
+        } else if (own == ~BlockMask{0}) {
+            whole_block_values(lowest_base_cell + cluster_step(i), out, worker);
         } else {
-            float* const out = values[static_cast<std::size_t>(i)].data();
-            if (count > most)
-                whole_block_values(lowest_base_cell + cluster_step(i), out, worker);
-            else
-                block_values(lowest_base_cell + cluster_step(i), own, out, worker);
+            out = next;
+            block_values(lowest_base_cell + cluster_step(i), own, out, worker);
+            next += count;
         }
     }
     if (pool.count == 0) return;
     pad(pool);
-    alignas(64) float sums[max_points];
-    sum_points<Kernel>(search_.near_box(lowest_base_cell, box_of(pool), worker), pool, sums);
-    const float* next = sums;
+    sum_points<Kernel>(search_.near_box(lowest_base_cell, box_of(pool), worker), pool, next);
     for (std::size_t i = 0; i < points.size(); ++i)
-        if (popcount(points[i]) <= few) next = scatter(points[i], next, values[i].data());
+        if (const int count = popcount(points[i]); count <= few) {
+            values.of[i] = next;
+            next += count;
+        }
 }
 
 template <class Kernel>
 void ParticleField<Kernel>::block_values(const Int3& base_cell, BlockMask points, float* values, unsigned worker) {
+    // Above this number of points, the regular grid of all 64 costs less than a list of these.
+    constexpr int most = 48;
+    if (popcount(points) > most) {
+        float whole[64];
+        whole_block_values(base_cell, whole, worker);
+        for (BlockMask left = points; left != 0; left &= left - 1) *values++ = whole[lowest_bit(left)];
+        return;
+    }
     PointList list;
     list_block_points(points, {0, 0, 0}, list);
     pad(list);
-    alignas(64) float sums[max_points];
-    sum_points<Kernel>(search_.near_box(base_cell, box_of(points), worker), list, sums);
-    scatter(points, sums, values);
+    sum_points<Kernel>(search_.near_box(base_cell, box_of(points), worker), list, values);
 }
 
 template <class Kernel>

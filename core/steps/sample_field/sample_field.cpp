@@ -14,35 +14,44 @@
 namespace meniscus::cpu {
 namespace {
 
-/// Enters new values of a block's missing points, given by bit; its samples move to new room.
-void enter_samples(State& state, std::uint32_t block, BlockMask missing, std::array<float, 64>& values,
-                   std::uint32_t room) {
-    const float* known = state.samples.data() + state.first_sample[block];
-    for (BlockMask left = state.sampled[block]; left != 0; left &= left - 1)
-        values[static_cast<std::size_t>(lowest_bit(left))] = *known++;
-    const BlockMask sampled = state.sampled[block] | missing;
-    float* out = state.samples.data() + room;
-    BlockMask above = 0;
-    if (sampled == ~BlockMask{0}) {
-        std::copy(values.begin(), values.end(), out);
-        for (int i = 0; i < 64; i += WideLanes::count)
-            above |= BlockMask{less_equal(WideLanes::load(out + i), WideLanes(state.settings.iso))} << i;
-        above = ~above;
-    } else {
-        for (BlockMask left = sampled; left != 0; left &= left - 1) {
-            const int bit = lowest_bit(left);
-            const float value = values[static_cast<std::size_t>(bit)];
-            *out++ = value;
-            above |= BlockMask{value > state.settings.iso} << bit;
-        }
+/// Which of up to 64 values are inside the fluid: a bit for each, and any for others. values: has whole lanes to read.
+std::uint64_t values_inside(const float* values, int count, float iso) {
+    std::uint64_t outside = 0;
+    for (int i = 0; i < count; i += WideLanes::count)
+        outside |= std::uint64_t{less_equal(WideLanes::load(values + i), WideLanes(iso))} << i;
+    return ~outside;
+}
+
+/// Writes a block's known samples and new ones in the order of their points; `out` may be where the known ones are.
+void merge_samples(BlockMask known_points, const float* known, BlockMask new_points, const float* values, float* out) {
+    const float* end[2] = {known + popcount(known_points), values + popcount(new_points)};
+    out += popcount(known_points | new_points);
+    for (BlockMask left = known_points | new_points; left != 0;) {
+        const int bit = highest_bit(left);
+        *--out = *--end[new_points >> bit & 1];
+        left ^= BlockMask{1} << bit;
     }
+}
+
+/// The same for another room, beyond which whole lanes may be overwritten.
+void move_samples(BlockMask known_points, const float* known, BlockMask new_points, const float* values, float* room) {
+    constexpr BlockMask base_vertex = 1;
+    if (known_points != base_vertex) return merge_samples(known_points, known, new_points, values, room);
+    *room++ = *known;
+    for (int i = 0; i < popcount(new_points); i += WideLanes::count) WideLanes::load(values + i).store(room + i);
+}
+
+/// Enters points of a block whose samples are written. inside: those of them that are above the iso-value.
+void enter_points(State& state, std::uint32_t block, BlockMask points, BlockMask inside) {
     if (state.settings.has_domain)
-        above &= domain_points(state.blocks().coordinate(block), state.settings.domain_low, state.settings.domain_high);
-    state.first_sample[block] = room;
+        inside &=
+            domain_points(state.blocks().coordinate(block), state.settings.domain_low, state.settings.domain_high);
+    const BlockMask sampled = state.sampled[block] | points;
+    const BlockMask all_inside = state.inside[block] | inside;
     state.sampled[block] = sampled;
-    state.inside[block] = above;
-    state.sign_sets().any_inside.put(state.brick[block], state.place[block], above != 0);
-    state.sign_sets().all_inside.put(state.brick[block], state.place[block], above == sampled);
+    state.inside[block] = all_inside;
+    state.sign_sets().any_inside.put(state.brick[block], state.place[block], all_inside != 0);
+    state.sign_sets().all_inside.put(state.brick[block], state.place[block], all_inside == sampled);
 }
 
 BlockMask missing_points(const State& state, std::uint32_t block) {
@@ -54,43 +63,59 @@ BlockMask followed_points(Wanted wanted, BlockMask missing) {
     return wanted == Wanted::middles ? missing & level1_middles : 0;
 }
 
-/// Samples the chosen blocks of a cluster, whose samples move to `room` one after the other; returns the number of new
-/// points.
+/// Samples the chosen blocks of a cluster, whose samples move to `room` one after the other, those of whole blocks
+/// first; returns the number of new points.
 std::uint64_t sample_cluster(State& state, FieldSource& field, Wanted wanted, const Brick& brick, const Int3& corner,
                              const std::uint64_t* chosen, std::uint64_t& room, unsigned worker) {
     const Int3 lowest = brick.corner() + corner;
     std::uint32_t block[cluster_blocks];
+    ClusterValues values;
     ClusterPoints missing{};
+    ClusterPoints asked{};
     ClusterPoints followed{};
+    std::uint64_t evaluations = 0;
     for (std::size_t i = 0; i < cluster_blocks; ++i) {
         const int place = index_in_brick(corner + cluster_step(static_cast<int>(i)));
         if ((chosen[place >> 6] >> (place & 63) & 1) == 0) continue;
         block[i] = brick.number(place);
-        missing[i] = missing_points(state, block[i]);
+        asked[i] = missing[i] = missing_points(state, block[i]);
         followed[i] = followed_points(wanted, missing[i]);
+        evaluations += static_cast<std::uint64_t>(popcount(missing[i]));
+        if ((state.sampled[block[i]] | missing[i]) != ~BlockMask{0}) continue;
+        // A block that becomes whole is sampled as a whole, right into its room.
+        asked[i] = ~BlockMask{0};
+        values.of[i] = state.samples.data() + room;
+        state.first_sample[block[i]] = static_cast<std::uint32_t>(room);
+        room += 64;
     }
-    ClusterValues values;
-    std::uint64_t evaluations = 0;
-    const auto sample = [&](const ClusterPoints& points, const auto& room_of) {
-        field.cluster_values(lowest, points, values, worker);
-        for (std::size_t i = 0; i < cluster_blocks; ++i) {
-            if (points[i] == 0) continue;
-            evaluations += static_cast<std::uint64_t>(popcount(points[i]));
-            enter_samples(state, block[i], points[i], values[i], room_of(i));
-        }
+    field.cluster_values(lowest, asked, values, worker);
+    const auto inside = [&](std::size_t i, BlockMask points) {
+        return scatter_bits(values_inside(values.of[i], popcount(points), state.settings.iso), points);
     };
-    sample(missing, [&](std::size_t i) {
-        const auto first = static_cast<std::uint32_t>(room);
-        room += static_cast<std::uint64_t>(popcount(state.sampled[block[i]] | missing[i]) + popcount(followed[i]));
-        return first;
-    });
-    bool any = false;
-    for (std::size_t i = 0; i < cluster_blocks; ++i)
-        if (followed[i] != 0) {
-            followed[i] = half_edge_middles(state.inside[block[i]], followed[i]);
-            any = true;
+    bool any_followed = false;
+    for (std::size_t i = 0; i < cluster_blocks; ++i) {
+        if (missing[i] == 0) continue;
+        if (asked[i] != ~BlockMask{0}) {
+            const BlockMask known = state.sampled[block[i]];
+            move_samples(known, state.samples.data() + state.first_sample[block[i]], missing[i], values.of[i],
+                         state.samples.data() + room);
+            state.first_sample[block[i]] = static_cast<std::uint32_t>(room);
+            room += static_cast<std::uint64_t>(popcount(known | missing[i]) + popcount(followed[i]));
         }
-    if (any) sample(followed, [&](std::size_t i) { return state.first_sample[block[i]]; });
+        enter_points(state, block[i], missing[i], inside(i, asked[i]));
+        if (followed[i] == 0) continue;
+        followed[i] = half_edge_middles(state.inside[block[i]], followed[i]) & ~state.sampled[block[i]];
+        any_followed = true;
+    }
+    if (!any_followed) return evaluations;
+    field.cluster_values(lowest, followed, values, worker);
+    for (std::size_t i = 0; i < cluster_blocks; ++i) {
+        if (followed[i] == 0) continue;
+        evaluations += static_cast<std::uint64_t>(popcount(followed[i]));
+        float* const samples = state.samples.data() + state.first_sample[block[i]];
+        merge_samples(state.sampled[block[i]], samples, followed[i], values.of[i], samples);
+        enter_points(state, block[i], followed[i], inside(i, followed[i]));
+    }
     return evaluations;
 }
 
@@ -129,7 +154,8 @@ void sample_wanted_points(State& state, FieldSource& field, Wanted wanted) {
                                                    popcount(followed_points(wanted, missing)));
             });
         });
-        state.brick_counts[b] = room;
+        // Whole lanes are written at the end, too.
+        state.brick_counts[b] = room == 0 ? 0 : room + WideLanes::count;
     });
     // A block that gains points moves to new room at the end of the samples; its old room stays unused until the next
     // frame.
@@ -156,6 +182,25 @@ void sample_wanted_points(State& state, FieldSource& field, Wanted wanted) {
 
 namespace {
 
+/// Whether the sampled points on a cell's closed box show both signs. Where no block is stored, all are outside.
+bool sees_both(const BlocksView& blocks, std::uint32_t block) {
+    const ClosedCell cell(blocks, block);
+    bool any_inside = false, any_outside = false;
+    for (int i = 0; i < 8; ++i) {
+        BlockMask points = ~BlockMask{0};
+        for (int axis = 0; axis < 3; ++axis)
+            if ((i >> axis & 1) != 0) points &= low_face(axis);
+        if (cell.block[i] == no_index) {
+            any_outside = true;
+            continue;
+        }
+        const BlockMask inside = blocks.inside[cell.block[i]] & points;
+        any_inside |= inside != 0;
+        any_outside |= inside != (blocks.sampled[cell.block[i]] & points);
+    }
+    return any_inside && any_outside;
+}
+
 /// Takes the cells into the band that a neighbor's samples show to hold surface; returns whether there were any.
 bool grow_band(State& state, const WantedLevel& wanted_level) {
     const BlocksView blocks = state.blocks();
@@ -164,8 +209,9 @@ bool grow_band(State& state, const WantedLevel& wanted_level) {
     const auto joining = [&](std::uint32_t brick, int w) {
         std::uint64_t cells = take_stale(state, StaleFor::band, brick, w) & ~levels.band(brick, w);
         if (cells != 0) cells &= levels.beside(1, brick, w) & signs.cells_seeing_both(brick, w);
-        return cells_where(state.grid.bricks[brick], w, cells,
-                           [&](std::uint32_t block) { return holds_at_a_face(joins_band, blocks, block); });
+        return cells_where(state.grid.bricks[brick], w, cells, [&](std::uint32_t block) {
+            return sees_both(blocks, block) && holds_at_a_face(joins_band, blocks, block);
+        });
     };
     return raise_levels(state, joining, wanted_level);
 }

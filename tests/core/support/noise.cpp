@@ -23,18 +23,21 @@ public:
         for (std::size_t i = 0; i < points.count; ++i)
             out[i] = noise_value(world_, base_cell, points.x[i], points.y[i], points.z[i]);
     }
-    void cluster_values(const Int3& lowest_base_cell, const cpu::ClusterPoints& points, cpu::ClusterValues& out,
+    void cluster_values(const Int3& lowest_base_cell, const cpu::ClusterPoints& points, cpu::ClusterValues& values,
                         unsigned) override {
-        for (std::size_t i = 0; i < points.size(); ++i)
+        float* room = values.room;
+        for (std::size_t i = 0; i < points.size(); ++i, room += 64) {
+            if (points[i] != ~BlockMask{0}) values.of[i] = room;
+            float* next = values.of[i];
             for (BlockMask left = points[i]; left != 0; left &= left - 1) {
                 const int bit = lowest_bit(left);
                 const auto coordinate = [bit](int axis) {
                     return static_cast<float>(point_coordinate(bit, axis) * units_per_cell);
                 };
-                out[i][static_cast<std::size_t>(bit)] =
-                    noise_value(world_, lowest_base_cell + cpu::cluster_step(static_cast<int>(i)), coordinate(0),
-                                coordinate(1), coordinate(2));
+                *next++ = noise_value(world_, lowest_base_cell + cpu::cluster_step(static_cast<int>(i)), coordinate(0),
+                                      coordinate(1), coordinate(2));
             }
+        }
     }
     void normals(const Int3&, cpu::PointList& points, const cpu::NormalRows& normals, unsigned) override {
         for (std::size_t i = 0; i < points.count; ++i) normals.x[i] = normals.y[i] = normals.z[i] = std::nanf("");
