@@ -37,6 +37,7 @@ std::optional<Turns::Turn> Turns::wait(const std::stop_token& stop, const std::s
     began_ = Clock::now();
     holder_ = session;
     const std::uint64_t number = ++number_;
+    under_way_.emplace(number, name);
     if (leader_ == 0) leader_ = number;
     const bool leads = leader_ == number;
     lock.unlock();
@@ -53,9 +54,12 @@ Turns::Lines::iterator Turns::line_of(const std::string& name) {
 }
 
 std::optional<std::uint64_t> Turns::next() const {
-    for (const Line& line : lines_)
+    for (const Line& line : lines_) {
+        const auto is_its = [&](const auto& turn) { return turn.second == line.name; };
+        if (std::ranges::any_of(under_way_, is_its)) continue;
         for (const Asked& asked : line.waiting)
             if (asked.needs == Needs::any_turn || leader_ == 0) return asked.number;
+    }
     return std::nullopt;
 }
 
@@ -82,6 +86,7 @@ void Turns::end(std::uint64_t number) {
         // Otherwise it was over, and another one has begun.
         if (number == number_) end_present();
         if (number == leader_) leader_ = 0;
+        under_way_.erase(number);
     }
     changed_.notify_all();
 }

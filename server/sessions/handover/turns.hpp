@@ -7,6 +7,7 @@
 #include <deque>
 #include <functional>
 #include <list>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <stop_token>
@@ -17,14 +18,14 @@ namespace meniscus::server {
 
 /// One turn at a time. Names take turns, and so do the sessions of each name: a name with many sessions has no more
 /// turns than one with a single session. A session asks for one turn per frame. A turn that lasts for long is over once
-/// somebody waits: the next one begins, and both go on side by side. The one that began first leads, until it has
-/// ended: so that what two cannot have at a time, such as most of the memory, is one's alone. Whoever begins while none
-/// leads, leads.
+/// another name waits: its turn begins, and both go on side by side. No name has two turns at a time. The one that
+/// began first leads, until it has ended: so that what two cannot have at a time, such as most of the memory, is one's
+/// alone. Whoever begins while none leads, leads.
 class Turns {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// longest: after which a turn is over for those who wait; none: it ends with its Turn alone, and each leads.
+    /// longest: after which a turn is over for other names; none: it ends with its Turn alone, and each leads.
     explicit Turns(std::optional<Clock::duration> longest = std::nullopt) : longest_(longest) {}
 
     enum class Needs : std::uint8_t {
@@ -92,11 +93,12 @@ private:
     std::uint64_t asked_ = 0;
     /// The lines of waiting names, the next one first. That with the present turn is last, and may be empty.
     Lines lines_;
-    std::optional<Clock::time_point> began_;  ///< the present turn; none: there is none
-    std::uint64_t number_ = 0;                ///< of the turn that began last
-    std::uint64_t leader_ = 0;                ///< the number of the turn that leads; 0: none
-    std::string holder_;                      ///< of the present turn
-    Clock::duration taken_{};                 ///< by the turns that have ended
+    std::optional<Clock::time_point> began_;          ///< the present turn; none: there is none
+    std::uint64_t number_ = 0;                        ///< of the turn that began last
+    std::map<std::uint64_t, std::string> under_way_;  ///< names by the numbers of the turns that have not ended
+    std::uint64_t leader_ = 0;                        ///< the number of the turn that leads; 0: none
+    std::string holder_;                              ///< of the present turn
+    Clock::duration taken_{};                         ///< by the turns that have ended
 };
 
 }  // namespace meniscus::server

@@ -142,14 +142,25 @@ TEST(LongTurns, AreOverForThoseWhoWaitAndEndOnTheirOwnLater) {
     std::optional<Turns::Turn> first = turns.wait({}, "ada", "1");
     std::optional<Turns::Turn> second = turns.wait({}, "ben", "2");
     EXPECT_EQ(turns.holder(), "2");
-    std::optional<Turns::Turn> third = turns.wait({}, "ada", "3");
-    EXPECT_EQ(turns.holder(), "3") << "also for another session of its name";
+    std::optional<Turns::Turn> third = turns.wait({}, "dan", "3");
+    EXPECT_EQ(turns.holder(), "3");
     first.reset();
     second.reset();
     EXPECT_EQ(turns.holder(), "3") << "the end of one that was over ends no other";
     third.reset();
     EXPECT_EQ(turns.holder(), "");
     EXPECT_TRUE(turns.wait({}, "eve"));
+}
+
+TEST(LongTurns, AreNotOverForAnotherSessionOfTheirName) {
+    Turns turns(Turns::Clock::duration::zero());
+    std::optional<Turns::Turn> long_one = turns.wait({}, "ada", "ada 1");
+    std::thread second([&] { EXPECT_TRUE(turns.wait({}, "ada", "ada 2")->leads()); });
+    while (turns.waiting() != 1) std::this_thread::yield();
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(turns.wait({}, "ben")) << "others pass by";
+    EXPECT_EQ(turns.waiting(), 1U);
+    long_one.reset();
+    second.join();
 }
 
 TEST(LongTurns, LastForAsLongAsTheyMay) {
@@ -203,7 +214,7 @@ TEST(LongTurns, PassByWhoNeedsToLeadWhileAnotherOneDoes) {
     std::optional<Turns::Turn> led;
     std::thread needs_to_lead([&] { led.emplace(*turns.wait({}, "ben", "ben 1", Turns::Needs::to_lead)); });
     while (turns.waiting() != 1) std::this_thread::yield();
-    for (const char* name : {"ben", "eve"}) EXPECT_FALSE(turns.wait({}, name)->leads());
+    for (const char* name : {"ben", "eve"}) EXPECT_FALSE(turns.wait({}, name)->leads()) << name;
     EXPECT_EQ(turns.waiting(), 1U);
     first.reset();
     needs_to_lead.join();
