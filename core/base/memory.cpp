@@ -34,17 +34,19 @@ bool SharedMemory::charge(std::size_t bytes) {
 
 void MemoryAccount::charge(std::size_t bytes) {
     const std::size_t now = bytes_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
-    if (limit_ != 0 && now > limit_) {
+    const std::size_t limit = this->limit();
+    if (limit != 0 && now > limit) {
         bytes_.fetch_sub(bytes, std::memory_order_relaxed);
-        throw LimitExceeded("the reconstruction would hold " + std::to_string(now) + " bytes " + place_ +
-                            ", more than its limit of " + std::to_string(limit_) +
-                            ": use a larger cell size, fewer particles or a higher memory limit");
+        throw MemoryLimitExceeded("the reconstruction would hold " + std::to_string(now) + " bytes " + place_ +
+                                  ", more than its limit of " + std::to_string(limit) +
+                                  ": use a larger cell size, fewer particles or a higher memory limit");
     }
     if (shared_ && !shared_->charge(bytes)) {
         bytes_.fetch_sub(bytes, std::memory_order_relaxed);
-        throw LimitExceeded("the reconstruction would hold " + std::to_string(now) + " bytes " + place_ +
-                            ", and all together more than their limit of " + std::to_string(shared_->limit()) +
-                            ": try again later, or use a larger cell size, fewer particles or a higher memory limit");
+        throw MemoryLimitExceeded(
+            "the reconstruction would hold " + std::to_string(now) + " bytes " + place_ +
+            ", and all together more than their limit of " + std::to_string(shared_->limit()) +
+            ": try again later, or use a larger cell size, fewer particles or a higher memory limit");
     }
     allocations_.fetch_add(1, std::memory_order_relaxed);
     std::size_t peak = peak_.load(std::memory_order_relaxed);

@@ -177,6 +177,8 @@ public:
         drop_backend();
     }
 
+    void limit_memory(std::size_t bytes) { account_->set_limit(bytes); }
+
     const Statistics& statistics() const { return statistics_; }
     const Settings& settings() const { return settings_; }
 
@@ -381,6 +383,9 @@ DeviceMesh Reconstructor::reconstruct_on_device(const DeviceParticleFrame& frame
     return impl_->reconstruct_on_device(frame);
 }
 
+void Reconstructor::limit_memory(std::size_t bytes) {
+    impl_->limit_memory(bytes);
+}
 const Statistics& Reconstructor::statistics() const {
     return impl_->statistics();
 }

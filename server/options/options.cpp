@@ -30,7 +30,6 @@ std::size_t default_memory_limit() {
 /// The limits of a server for which nobody has set any.
 Limits default_limits() {
     return {.particles_per_frame = 100'000'000,
-            .bytes_per_session = default_memory_limit(),
             .total_bytes = default_memory_limit(),
             .idle_buffers_time = std::chrono::minutes(1),
             .bytes_in_flight = default_memory_limit(),

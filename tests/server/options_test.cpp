@@ -76,6 +76,14 @@ TEST(Options, UseAllDevicesWithoutALimitUnlessTold) {
     EXPECT_EQ(options.limits.device_bytes_per_session, 0U);
 }
 
+TEST(Options, LeaveAnEighthOfTheMemoryToOthersThanOneSessionUnlessTold) {
+    EXPECT_EQ(parse({"--total-memory-limit", "8000"}).limits.bytes_per_session, 7000U);
+    EXPECT_EQ(parse({"--total-memory-limit", "0"}).limits.bytes_per_session, 0U);
+    EXPECT_EQ(parse({"--total-memory-limit", "8000", "--memory-limit", "9000"}).limits.bytes_per_session, 9000U);
+    const Limits standard = parse({}).limits;
+    EXPECT_EQ(standard.bytes_per_session, standard.total_bytes - standard.total_bytes / 8);
+}
+
 TEST(Options, ComeFromTheFlagThenTheEnvironmentThenTheFile) {
     const test::TestFolder folder;
     const std::string file = folder.write("config", "max-sessions = 3\n");

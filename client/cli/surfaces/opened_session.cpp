@@ -6,8 +6,10 @@ namespace meniscus::cli {
 
 OpenedSession::OpenedSession(const ServerFlags& server, const SessionFlags& flags, const Settings& settings)
     : client_(server.connect()),
-      session_(client_.open_session(
-          settings, {.description = flags.description, .id = flags.id, .ephemeral = flags.id.empty() && !flags.keep})) {
+      session_(client_.open_session(settings, {.description = flags.description,
+                                               .id = flags.id,
+                                               .ephemeral = flags.id.empty() && !flags.keep,
+                                               .stream_follows = true})) {
     if (flags.keep) session_.leave();
     if (!session_.is_owned()) return;
     interrupts_.emplace([end = session_.ending()] {

@@ -46,6 +46,7 @@ v1::CreateSessionResponse create_session(const Connection& connection, const std
     *request.mutable_settings() = conversion::to_wire(settings);
     *request.mutable_description() = to_wire(options.description);
     request.set_ephemeral(options.ephemeral);
+    request.set_stream_follows(options.stream_follows);
     v1::CreateSessionResponse response;
     call(connection, *connection.sessions, &v1::SessionService::Stub::CreateSession, id, request, response, limits);
     return response;

@@ -19,6 +19,12 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// The memory to be held is more than a limit of it.
+class MemoryLimitExceeded : public LimitExceeded {
+public:
+    using LimitExceeded::LimitExceeded;
+};
+
 /// The reconstruction ended early because its StopFlag was raised. The reconstructor may be used on.
 class Stopped : public std::runtime_error {
 public:

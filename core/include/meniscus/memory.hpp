@@ -63,9 +63,11 @@ public:
                            std::shared_ptr<PagePinning> pinning = nullptr)
         : limit_(limit), place_(place), shared_(std::move(shared)), pinning_(std::move(pinning)) {}
 
-    /// Throws LimitExceeded, without charging, if the account would pass its limit, or the shared memory its own.
+    /// Throws MemoryLimitExceeded, without charging, if the account would pass its limit, or the shared memory its own.
     void charge(std::size_t bytes);
     void release(std::size_t bytes) noexcept;
+    /// For charges from now on. limit: as the constructor's; what is held may be more.
+    void set_limit(std::size_t limit) noexcept { limit_.store(limit, std::memory_order_relaxed); }
     /// Pins and unpins an array that is charged: after its allocation, and before it is freed.
     void pin(void* array, std::size_t bytes) noexcept {
         if (pinning_ && bytes >= PagePinning::least_bytes) pinning_->pin(array, bytes);
@@ -77,10 +79,10 @@ public:
     std::size_t bytes() const noexcept { return bytes_.load(std::memory_order_relaxed); }
     std::size_t peak_bytes() const noexcept { return peak_.load(std::memory_order_relaxed); }
     std::uint64_t allocations() const noexcept { return allocations_.load(std::memory_order_relaxed); }
-    std::size_t limit() const noexcept { return limit_; }
+    std::size_t limit() const noexcept { return limit_.load(std::memory_order_relaxed); }
 
 private:
-    std::size_t limit_;
+    std::atomic<std::size_t> limit_;
     const char* place_;
     std::shared_ptr<SharedMemory> shared_;
     std::shared_ptr<PagePinning> pinning_;

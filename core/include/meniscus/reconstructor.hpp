@@ -1,6 +1,7 @@
 // Particles in, mesh out.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -72,6 +73,10 @@ public:
     /// Gives the buffers back; the next frame takes them again. There is no surface to emit again until then. Meshes
     /// keep their memory.
     void release_memory();
+
+    /// Replaces BackendOptions::memory_limit (bytes; 0: none) from the next call on. Buffers that are there stay, also
+    /// where they are larger.
+    void limit_memory(std::size_t bytes);
 
     /// The statistics of the last frame.
     const Statistics& statistics() const;

@@ -22,7 +22,9 @@ v1::CreateSessionResponse create_session(SessionRegistry& registry, const Caller
                         {.name = caller.name,
                          .account = account_of(caller, registry),
                          .may_see = [&](const std::string& owner) { return Authorizer::may_see(caller, owner); }},
-                        {.description = std::move(description), .ephemeral = request.ephemeral()});
+                        {.description = std::move(description),
+                         .ephemeral = request.ephemeral(),
+                         .stream_follows = request.stream_follows()});
     response.set_created(is_new);
     *response.mutable_session() = session_message(*session, caller);
     return response;

@@ -19,9 +19,16 @@ inline constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 inline constexpr std::size_t min_message_bytes = chunk_bytes + 1024;
 inline constexpr std::size_t max_message_bytes = std::numeric_limits<int>::max();
 
+/// What the share below leaves of a limit.
+template <class Number>
+constexpr Number an_eighth(Number limit) {
+    return limit > 1 ? std::max<Number>(limit / 8, 1) : 0;
+}
+
 /// The share of one caller where nothing else is said: others find room beside it.
-constexpr std::uint32_t all_but_an_eighth(std::uint32_t limit) {
-    return limit > 1 ? limit - std::max(limit / 8, 1U) : limit;
+template <class Number>
+constexpr Number all_but_an_eighth(Number limit) {
+    return limit - an_eighth(limit);
 }
 
 struct Limits {
@@ -49,6 +56,9 @@ struct Limits {
     std::chrono::milliseconds frame_time{60'000};
     /// Memory for the reconstruction of one session; the same again for its arriving frames, and for their encoding.
     std::size_t bytes_per_session = 0;
+    /// A frame has the processors alone for this time while others wait. Then they have their turns beside it, and it
+    /// is not stopped, as it may need its time. Not on a GPU, whose memory few frames leave room in.
+    std::chrono::milliseconds turn_time{4'000};
     /// Memory for the reconstruction of one session on its GPU.
     std::size_t device_bytes_per_session = 0;
     /// Memory for all sessions' reconstructions, and for those on one GPU.
@@ -229,12 +239,13 @@ struct Limits {
                .argument = "SECONDS",
                .gauge = "orphan_time"});
         visit("bytes_per_session", self.bytes_per_session,
-              {.help = "Memory of one session's reconstruction, as 4G or 500M; 0: no limit. Default: half of the "
-                       "machine's, or of the container's",
+              {.help = "Memory of one session's reconstruction, as 4G or 500M; 0: no limit. Default: all but an "
+                       "eighth of --total-memory-limit",
                .unit = "bytes",
                .option = "memory-limit",
                .argument = "BYTES",
-               .gauge = "memory_per_session"});
+               .gauge = "memory_per_session"},
+              [&self] { return all_but_an_eighth(self.total_bytes); });
         visit("total_bytes", self.total_bytes,
               {.help = "Memory of all sessions' reconstructions, of encoding, and of what is kept of frames; 0: "
                        "no limit. Default: half of the machine's, or of the container's",

@@ -19,7 +19,8 @@ ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOpt
         .emit_capped = [reconstructor](int max_level, Mesh& mesh) { reconstructor->emit_capped(max_level, mesh); },
         .stop = stop,
         .keeps_lattice = stoppable.keep_lattice,
-        .release_memory = [reconstructor] { reconstructor->release_memory(); }};
+        .release_memory = [reconstructor] { reconstructor->release_memory(); },
+        .limit_memory = [reconstructor](std::size_t bytes) { reconstructor->limit_memory(bytes); }};
     if (backend.backend != Backend::cpu)
         functions.send_ahead = [weak = std::weak_ptr(reconstructor)](const ParticleFrame& frame) {
             // A call may keep a session for longer than it keeps its buffers.

@@ -1,6 +1,7 @@
 // How a session gets its surfaces.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -41,6 +42,8 @@ struct ReconstructFunctions {
     bool keeps_lattice = false;  ///< whether meshes come with Mesh::lattice
     /// Gives the buffers back until the next frame. May be none.
     std::function<void()> release_memory{};
+    /// Limits the memory of the next calls, see Reconstructor::limit_memory(). None: it has no limit.
+    std::function<void(std::size_t bytes)> limit_memory{};
 };
 
 /// The functions of a Reconstructor of these settings: where the server meets core.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "meniscus/error.hpp"
@@ -13,6 +15,32 @@
 #include "sessions/limits/refusal.hpp"
 
 namespace meniscus::server {
+
+namespace {
+
+/// Limits the memory of a reconstruction for a turn: beside one that leads, to what no other session may take.
+class MemoryOfTurn {
+public:
+    /// is_less: becomes whether the session may have more in a turn that leads, for as long as this limits it.
+    MemoryOfTurn(const ReconstructFunctions& functions, const Limits& limits, bool leads, bool& is_less)
+        : functions_(functions), own_(limits.bytes_per_session), is_less_(is_less) {
+        const std::size_t beside = an_eighth(limits.total_bytes);
+        is_less_ = !leads && functions.limit_memory && beside != 0 && (own_ == 0 || beside < own_);
+        if (is_less_) functions.limit_memory(beside);
+    }
+    ~MemoryOfTurn() {
+        if (std::exchange(is_less_, false)) functions_.limit_memory(own_);
+    }
+    MemoryOfTurn(const MemoryOfTurn&) = delete;
+    MemoryOfTurn& operator=(const MemoryOfTurn&) = delete;
+
+private:
+    const ReconstructFunctions& functions_;
+    const std::size_t own_;
+    bool& is_less_;
+};
+
+}  // namespace
 
 ReconstructingThread::ReconstructingThread(const SessionContext& context, ReconstructFunctions functions,
                                            FrameQueue& received, InputSlots& inputs, Watchers& watchers,
@@ -78,11 +106,16 @@ bool ReconstructingThread::reconstruct_next(Received received, Turns::Turn turn)
     }
     try {
         // The rest is no work of the device: others have their turn meanwhile.
-        const Turns::Turn ends = std::move(turn);
-        const FrameStop::UnderWay under_way(stop_, received.upload.get());
-        const OpenWork::Entry working(open_work(), fmt::format("the reconstruction of frame {} of session {}",
-                                                               input.index, context_.identity.id));
-        reconstruct(received, *next_mesh_);
+        const bool done = in_turn(std::move(turn), [&] {
+            const FrameStop::UnderWay under_way(stop_, received.upload.get());
+            const OpenWork::Entry working(open_work(), fmt::format("the reconstruction of frame {} of session {}",
+                                                                   input.index, context_.identity.id));
+            reconstruct(received, *next_mesh_);
+        });
+        if (!done) {
+            inputs_.give_back(input);
+            return false;
+        }
     } catch (const DeviceError& error) {
         log_error({.session = context_.identity.id, .frame = input.index}, "the session ends: {}", error.what());
         inputs_.give_back(input);
@@ -107,6 +140,21 @@ bool ReconstructingThread::reconstruct_next(Received received, Turns::Turn turn)
     return true;
 }
 
+bool ReconstructingThread::in_turn(std::optional<Turns::Turn> turn, const std::function<void()>& work) {
+    if (!turn) return false;
+    {
+        const MemoryOfTurn memory(functions_, context_.limits, turn->leads(), may_have_more_memory_);
+        try {
+            const Turns::Turn ends = *std::move(turn);
+            work();
+            return true;
+        } catch (const MemoryLimitExceeded&) {
+            if (!may_have_more_memory_) throw;
+        }
+    }
+    return in_turn(begin_work(Turns::Needs::to_lead), work);
+}
+
 void ReconstructingThread::reconstruct(const Received& received, ReconstructedFrame& frame) {
     InputFrame& input = *received.input;
     input.pin();
@@ -119,6 +167,8 @@ void ReconstructingThread::reconstruct(const Received& received, ReconstructedFr
     } catch (const InvalidInput& error) {
         has_surface_ = had_surface;  // the one before
         throw InvalidInput(fmt::format("frame {}: {}", input.index, error.what()));
+    } catch (const MemoryLimitExceeded& error) {
+        throw MemoryLimitExceeded(fmt::format("frame {}: {}", input.index, error.what()));
     } catch (const LimitExceeded& error) {
         throw LimitExceeded(fmt::format("frame {}: {}", input.index, error.what()));
     } catch (const Stopped&) {
@@ -187,7 +237,7 @@ void ReconstructingThread::cap_levels_again(int max_level) {
     rest();
 }
 
-std::optional<Turns::Turn> ReconstructingThread::begin_work() {
+std::optional<Turns::Turn> ReconstructingThread::begin_work(Turns::Needs needs) {
     {
         const std::lock_guard lock(mutex_);
         resting_since_.reset();
@@ -195,7 +245,7 @@ std::optional<Turns::Turn> ReconstructingThread::begin_work() {
     waits_for_turn_ = true;
     const SessionIdentity& identity = context_.identity;
     auto turn = context_.shared.turns->wait(context_.closing, identity.account ? identity.account->name() : identity.id,
-                                            identity.id);
+                                            identity.id, needs);
     waits_for_turn_ = false;
     return turn;
 }
@@ -234,12 +284,10 @@ void ReconstructingThread::make_meshes_again() {
     if (!meshes_released_ || input == nullptr) return;
     if (next_mesh_ == nullptr) next_mesh_ = encoding_.wait_for_free_frame();
     if (next_mesh_ == nullptr) return;
-    {
-        const auto turn = begin_work();
-        if (!turn) return;
-        const FrameStop::UnderWay under_way(stop_, nullptr);
-        ReconstructedFrame& frame = *next_mesh_;
-        try {
+    try {
+        const bool done = in_turn(begin_work(), [&] {
+            const FrameStop::UnderWay under_way(stop_, nullptr);
+            ReconstructedFrame& frame = *next_mesh_;
             frame.download = functions_.reconstruct(input->view(), frame.mesh).download;
             has_surface_ = true;
             frame.statistics = shown_.statistics;
@@ -251,19 +299,19 @@ void ReconstructingThread::make_meshes_again() {
             cap_levels(frame);
             encoding_.put(EncodingThread::ShowAgain{.frame = std::exchange(next_mesh_, nullptr)});
             meshes_released_ = false;
-        } catch (const DeviceError& error) {
-            log_error({.session = context_.identity.id}, "the session ends: {}", error.what());
-            encoding_.put(EncodingThread::EndSession{std::current_exception()});
-        } catch (const Stopped&) {
-            // Where the session ends, no watcher is left to miss it.
-            if (stop_.reason() == FrameStop::Reason::too_long)
-                log_warning(
-                    {.session = context_.identity.id, .frame = input->index},
-                    "no mesh for a watcher that has come, until the next frame: it had the device for too long");
-        } catch (const std::exception& error) {
-            log_error({.session = context_.identity.id, .frame = input->index},
-                      "no mesh for a watcher that has come, until the next frame: {}", error.what());
-        }
+        });
+        if (!done) return;
+    } catch (const DeviceError& error) {
+        log_error({.session = context_.identity.id}, "the session ends: {}", error.what());
+        encoding_.put(EncodingThread::EndSession{std::current_exception()});
+    } catch (const Stopped&) {
+        // Where the session ends, no watcher is left to miss it.
+        if (stop_.reason() == FrameStop::Reason::too_long)
+            log_warning({.session = context_.identity.id, .frame = input->index},
+                        "no mesh for a watcher that has come, until the next frame: it had the device for too long");
+    } catch (const std::exception& error) {
+        log_error({.session = context_.identity.id, .frame = input->index},
+                  "no mesh for a watcher that has come, until the next frame: {}", error.what());
     }
     rest();
 }
@@ -284,6 +332,7 @@ bool ReconstructingThread::emit_capped(int max_level, Mesh& mesh) {
         return false;
     } catch (const std::exception& error) {
         has_surface_ = false;
+        if (may_have_more_memory_ && dynamic_cast<const MemoryLimitExceeded*>(&error) != nullptr) throw;
         log_error({.session = context_.identity.id},
                   "no mesh of levels up to {} for its watchers, who keep the one before: {}", max_level, error.what());
         return false;

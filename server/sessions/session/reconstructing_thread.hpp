@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -52,11 +53,15 @@ private:
     void pass_on(Received note);
     /// The turn ends with the reconstruction. Returns whether the session goes on.
     bool reconstruct_next(Received received, Turns::Turn turn);
+    /// Calls work in this turn, which ends with it. Beside one that leads, a session may hold as much memory as no
+    /// other may take; where that is too little, work is called again in a turn that leads. Returns false, without
+    /// having called it to its end, if the session ends, or if there is no turn.
+    bool in_turn(std::optional<Turns::Turn> turn, const std::function<void()>& work);
     void reconstruct(const Received& received, ReconstructedFrame& frame);
     /// Why a frame was stopped, for its stream.
     [[noreturn]] void throw_stopped(std::uint64_t index) const;
     /// Works from here on, until rest(). Returns its turn; none if the session ends.
-    std::optional<Turns::Turn> begin_work();
+    std::optional<Turns::Turn> begin_work(Turns::Needs needs = Turns::Needs::any_turn);
     void rest();
     /// Gives back all memory but the newest particles, which meshes are made of again, and what is encoded.
     void release_buffers();
@@ -90,6 +95,7 @@ private:
     ReconstructedFrame* next_mesh_ = nullptr;  ///< taken before it is needed
     bool has_surface_ = false;                 ///< of a frame, so that it can be emitted again
     std::array<bool, 2> capped_{};             ///< whether that was done at levels 1 and 2
+    bool may_have_more_memory_ = false;        ///< whether a turn that leads would give it more than this one
     std::shared_ptr<Upload> failed_;           ///< its frames that follow are dropped
 
     std::atomic<bool> waits_for_turn_{false};

@@ -110,9 +110,10 @@ public:
     /// taken too slowly while frames of others wait for the bytes of its own, or are refused for its memory.
     void end_idle_upload(std::chrono::steady_clock::time_point now, bool memory_is_short);
     /// Why the session is to end, for the log: it has been without streams, watchers and calls for Limits::idle_time,
-    /// or for Limits::orphan_time where its simulator has vanished without a word; or it is ephemeral and has been
-    /// without a stream for Limits::ephemeral_time, or, where a stream has broken, for as long as its simulator tries
-    /// to come back, but no longer than Limits::orphan_time. None: it is not.
+    /// or for Limits::orphan_time where its simulator has vanished without a word, or has never come though its creator
+    /// said that a stream follows; or it is ephemeral and has been without a stream for Limits::ephemeral_time, or,
+    /// where a stream has broken, for as long as its simulator tries to come back, but no longer than
+    /// Limits::orphan_time. None: it is not.
     std::optional<std::string> unused(std::chrono::steady_clock::time_point now) const;
     /// For how long it has had no stream, since its creation or the end of the last one; none: it has one.
     std::optional<std::chrono::steady_clock::duration> without_stream(std::chrono::steady_clock::time_point now) const;
@@ -189,7 +190,8 @@ private:
     std::uint64_t runs_ = 0;                           ///< that have begun
     std::shared_ptr<Upload> upload_;                   ///< the one that sends
     std::vector<std::shared_ptr<Upload>> unanswered_;  ///< and those whose last frames are still on their way
-    bool orphaned_ = false;  ///< its simulator has vanished without a word, and nobody has resumed it
+    /// Its simulator has vanished without a word, or has not come yet, and nobody has resumed it.
+    bool orphaned_ = kind().stream_follows;
     std::chrono::steady_clock::time_point without_stream_since_ = std::chrono::steady_clock::now();
     const Upload* last_upload_ = nullptr;       ///< the stream opened last, which may have gone; to know it from others
     std::chrono::milliseconds awaited_for_{0};  ///< its simulator, since its end

@@ -14,10 +14,11 @@
 
 namespace meniscus::server {
 
-/// The description of a session, and whether it is ephemeral. A client that joins it need not know them.
+/// The description of a session, and when it goes by itself. A client that joins it need not know them.
 struct SessionKind {
     v1::SessionDescription description{};
-    bool ephemeral = false;  ///< see Session::unused()
+    bool ephemeral = false;       ///< see Session::unused()
+    bool stream_follows = false;  ///< its creator is about to open one: where none comes, it has vanished
 };
 
 struct SessionIdentity {

@@ -41,11 +41,6 @@ std::chrono::milliseconds idle_check_interval(const Limits& limits) {
     return std::clamp(interval, milliseconds(10), milliseconds(10'000));
 }
 
-/// For which a frame has the processors alone while others wait. Afterwards they have their turns beside it, if half
-/// of the memory is free, and no frame is stopped that needs its time. Not on a GPU, whose memory few frames leave room
-/// in.
-constexpr std::chrono::seconds longest_turn{4};
-
 std::string place_name(const BackendOptions& backend) {
     return backend.backend == Backend::cuda ? fmt::format("GPU {}", backend.device) : "the CPU";
 }
@@ -240,11 +235,7 @@ SharedResources SessionRegistry::shared_on(const BackendOptions& place) {
     constexpr int cpu = -1;
     const bool is_gpu = place.backend == Backend::cuda;
     auto& turns = turns_[is_gpu ? place.device : cpu];
-    // A frame beside another one has half of the memory for itself at least.
-    const auto have_room = [memory = memory_] {
-        return memory->limit() == 0 || memory->bytes() <= memory->limit() / 2;
-    };
-    if (!turns) turns = is_gpu ? std::make_shared<Turns>() : std::make_shared<Turns>(longest_turn, have_room);
+    if (!turns) turns = is_gpu ? std::make_shared<Turns>() : std::make_shared<Turns>(limits_.turn_time);
     return {.workers = workers_,
             .metrics = metrics_,
             .turns = turns,

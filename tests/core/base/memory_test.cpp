@@ -111,6 +111,22 @@ TEST(Memory, FollowsTheFluidAndNotItsExtent) {
     EXPECT_LT(apart.statistics().peak_bytes, 3 * near.statistics().peak_bytes);
 }
 
+TEST(Memory, LimitedAnewIsThatOfTheNextFrames) {
+    Reconstructor reconstructor(test::default_settings(), {.backend = Backend::cpu, .threads = 1});
+    const test::Particles particles = test::splash(42, 20);
+    Mesh mesh;
+    reconstructor.reconstruct(particles.frame(), mesh);
+    const std::string hash = mesh_sha256(mesh);
+    reconstructor.limit_memory(1);
+    reconstructor.reconstruct(particles.frame(), mesh);
+    EXPECT_EQ(mesh_sha256(mesh), hash) << "the buffers are there";
+    reconstructor.release_memory();
+    EXPECT_THROW(reconstructor.reconstruct(particles.frame(), mesh), MemoryLimitExceeded);
+    reconstructor.limit_memory(0);
+    reconstructor.reconstruct(particles.frame(), mesh);
+    EXPECT_EQ(mesh_sha256(mesh), hash);
+}
+
 TEST(Memory, OfAllReconstructorsHasALimitOfItsOwn) {
     const Settings settings = test::default_settings();
     const test::Particles particles = test::splash(42, 20);

@@ -107,6 +107,23 @@ void wait_until_gone(RunningServer& running) {
     while (!running.client.sessions().empty()) std::this_thread::yield();
 }
 
+TEST(SessionsToStreamTo, EndIfNoStreamFollowsAndOthersStay) {
+    ServerOptions options = test_options();
+    options.limits.orphan_time = std::chrono::milliseconds(200);
+    RunningServer running(options);
+    const std::string stays = client::new_session_id();
+    const std::string followed = client::new_session_id();
+    running.client.create_session(stays, settings());
+    running.client.create_session(followed, settings(), {.stream_follows = true});
+    auto stream = running.client.stream(followed);
+    running.client.create_session(client::new_session_id(), settings(), {.stream_follows = true});
+    stream.finish();
+    EXPECT_FALSE(stream.next());
+    while (running.client.sessions().size() > 2) std::this_thread::yield();
+    EXPECT_EQ(running.client.session(stays).frames, 0U);
+    EXPECT_EQ(running.client.session(followed).frames, 0U);
+}
+
 TEST(EphemeralSessions, EndWithTheirStreamAndTheirWatchersEndWell) {
     RunningServer running(ephemeral_after(std::chrono::seconds(1)));
     const std::string id = client::new_session_id();

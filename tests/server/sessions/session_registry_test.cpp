@@ -330,6 +330,42 @@ TEST(OrphanedRegistry, ForgetsASessionWhoseSimulatorLeftBeforeItsLastAnswers) {
     while (!session->ended()) registry.end_idle(std::chrono::steady_clock::now() + 2 * limit);
 }
 
+TEST(OrphanedRegistry, ForgetsASessionWhoseSimulatorNeverCameThoughItWasToFollow) {
+    using Clock = std::chrono::steady_clock;
+    constexpr auto limit = std::chrono::minutes(2);
+    SessionRegistry registry{Limits{.orphan_time = limit}, BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
+    const auto before = Clock::now();
+    const auto create = [&](const char* id, bool stream_follows) {
+        return registry.create(id, test::settings(), {}, {.stream_follows = stream_follows}).session;
+    };
+    const auto stream = [](Session& session) {
+        session.cancel_upload(session.open_upload(
+                                  {}, [] {}, [] {}),
+                              UploadEnd::answered);
+    };
+    const auto left = create(first_id, true);
+    const auto streamed_in_time = create(second_id, true);
+    const auto made_to_stay = create(third_id, false);
+    const auto watched = create("00000000-0000-4000-8000-000000000004", true);
+    const auto watch = watched->open_watch({}, [] {});
+    registry.end_idle(before + limit - std::chrono::milliseconds(1));
+    EXPECT_EQ(registry.list().size(), 4U);
+    stream(*streamed_in_time);
+    registry.end_idle(Clock::now() + limit);
+    EXPECT_TRUE(left->ended());
+    EXPECT_FALSE(streamed_in_time->ended());
+    EXPECT_FALSE(made_to_stay->ended());
+    EXPECT_FALSE(watched->ended());
+    // The stream comes late: its simulator creates the session again.
+    const auto late = create(first_id, true);
+    EXPECT_NE(late, left);
+    stream(*late);
+    watched->close_watch(watch);
+    registry.end_idle(Clock::now() + 10 * limit);
+    EXPECT_FALSE(late->ended());
+    EXPECT_TRUE(watched->ended());
+}
+
 TEST_F(Registry, RefusesSettingsOutOfRange) {
     EXPECT_THROW(registry.create(first_id, Settings{}), InvalidInput);
     EXPECT_TRUE(registry.list().empty());

@@ -142,14 +142,25 @@ TEST(LongTurns, AreOverForThoseWhoWaitAndEndOnTheirOwnLater) {
     std::optional<Turns::Turn> first = turns.wait({}, "ada", "1");
     std::optional<Turns::Turn> second = turns.wait({}, "ben", "2");
     EXPECT_EQ(turns.holder(), "2");
-    std::optional<Turns::Turn> third = turns.wait({}, "ada", "3");
-    EXPECT_EQ(turns.holder(), "3") << "also for another session of its name";
+    std::optional<Turns::Turn> third = turns.wait({}, "dan", "3");
+    EXPECT_EQ(turns.holder(), "3");
     first.reset();
     second.reset();
     EXPECT_EQ(turns.holder(), "3") << "the end of one that was over ends no other";
     third.reset();
     EXPECT_EQ(turns.holder(), "");
     EXPECT_TRUE(turns.wait({}, "eve"));
+}
+
+TEST(LongTurns, AreNotOverForAnotherSessionOfTheirName) {
+    Turns turns(Turns::Clock::duration::zero());
+    std::optional<Turns::Turn> long_one = turns.wait({}, "ada", "ada 1");
+    std::thread second([&] { EXPECT_TRUE(turns.wait({}, "ada", "ada 2")->leads()); });
+    while (turns.waiting() != 1) std::this_thread::yield();
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(turns.wait({}, "ben")) << "others pass by";
+    EXPECT_EQ(turns.waiting(), 1U);
+    long_one.reset();
+    second.join();
 }
 
 TEST(LongTurns, LastForAsLongAsTheyMay) {
@@ -183,24 +194,67 @@ TEST(LongTurns, AreOverForWhoComesNextWhereTheOneInFrontGivesUp) {
     EXPECT_EQ(turns.waiting(), 0U);
 }
 
-TEST(LongTurns, AreOverOnlyWhereThereIsRoomForTwo) {
-    std::atomic<bool> have_room{false};
-    Turns turns(Turns::Clock::duration::zero(), [&] { return have_room.load(); });
-    const auto held = turns.wait({}, "ada", "1");
-    std::thread next([&] {
-        const auto turn = turns.wait({}, "ben", "2");
-        EXPECT_TRUE(have_room);
-    });
-    while (turns.waiting() != 1) std::this_thread::yield();
-    EXPECT_EQ(turns.holder(), "1");
-    have_room = true;
-    next.join();
+TEST(LongTurns, HaveOneAmongThemThatLeadsUntilItsEnd) {
+    Turns turns(Turns::Clock::duration::zero());
+    std::optional<Turns::Turn> first = turns.wait({}, "ada");
+    std::optional<Turns::Turn> second = turns.wait({}, "ben");
+    EXPECT_TRUE(first->leads());
+    EXPECT_FALSE(second->leads());
+    first.reset();
+    std::optional<Turns::Turn> third = turns.wait({}, "eve");
+    EXPECT_FALSE(second->leads());
+    EXPECT_TRUE(third->leads()) << "it is the first to begin while none leads";
+    second.reset();
+    EXPECT_FALSE(turns.wait({}, "ben")->leads());
 }
 
-/// Many who ask again and again, and keep some of their turns for longer than they may: each has all of its turns.
+TEST(LongTurns, PassByWhoNeedsToLeadWhileAnotherOneDoes) {
+    Turns turns(Turns::Clock::duration::zero());
+    std::optional<Turns::Turn> first = turns.wait({}, "ada");
+    std::optional<Turns::Turn> led;
+    std::thread needs_to_lead([&] { led.emplace(*turns.wait({}, "ben", "ben 1", Turns::Needs::to_lead)); });
+    while (turns.waiting() != 1) std::this_thread::yield();
+    for (const char* name : {"ben", "eve"}) EXPECT_FALSE(turns.wait({}, name)->leads()) << name;
+    EXPECT_EQ(turns.waiting(), 1U);
+    first.reset();
+    needs_to_lead.join();
+    EXPECT_TRUE(led->leads());
+    EXPECT_EQ(turns.holder(), "ben 1");
+}
+
+TEST(LongTurns, OfWhoNeedsToLeadComeBeforeThoseWhoAskedLater) {
+    // The others' turns are longer than this test: whoever is not next waits for the end of who is.
+    Turns turns(std::chrono::minutes(10));
+    std::optional<Turns::Turn> first = turns.wait({}, "ada");
+    std::vector<std::string> order;
+    std::vector<std::thread> threads;
+    const auto ask = [&](const std::string& name, Turns::Needs needs) {
+        const std::uint64_t before = turns.waiting();
+        threads.emplace_back([&, name, needs] {
+            const auto turn = turns.wait({}, name, name, needs);
+            order.push_back(name);
+        });
+        while (turns.waiting() == before) std::this_thread::yield();
+    };
+    ask("ben", Turns::Needs::to_lead);
+    ask("eve", Turns::Needs::any_turn);
+    first.reset();
+    for (std::thread& each : threads) each.join();
+    EXPECT_EQ(order, (std::vector<std::string>{"ben", "eve"}));
+}
+
+TEST(Turns, EachLeadWhereNoneIsOverBeforeItsEnd) {
+    Turns turns;
+    for (const auto needs : {Turns::Needs::any_turn, Turns::Needs::to_lead})
+        EXPECT_TRUE(turns.wait({}, "ada", {}, needs)->leads());
+}
+
+/// Many who ask again and again, and keep some of their turns for longer than they may: each has all of its turns, and
+/// one leads at a time.
 TEST(LongTurns, GoRoundAmongMany) {
     Turns turns(std::chrono::microseconds(50));
     std::atomic<int> had{0};
+    std::atomic<int> leaders{0};
     std::vector<std::thread> threads;
     for (unsigned asker = 0; asker < 6; ++asker)
         threads.emplace_back([&, asker] {
@@ -208,10 +262,15 @@ TEST(LongTurns, GoRoundAmongMany) {
             for (int round = 0; round < 200; ++round) {
                 std::stop_source stop;
                 if (random() % 8 == 0) stop.request_stop();
-                const auto turn = turns.wait(stop.get_token(), std::to_string(asker / 2));
+                const auto needs = random() % 4 == 0 ? Turns::Needs::to_lead : Turns::Needs::any_turn;
+                const auto turn = turns.wait(stop.get_token(), std::to_string(asker / 2), {}, needs);
                 EXPECT_EQ(turn.has_value(), !stop.stop_requested());
+                const bool leads = turn && turn->leads();
+                EXPECT_TRUE(leads || !turn || needs == Turns::Needs::any_turn);
+                EXPECT_LE(leaders.fetch_add(leads), leads ? 0 : 1);
                 ++had;
                 if (random() % 4 == 0) std::this_thread::sleep_for(std::chrono::microseconds(random() % 200));
+                if (leads) --leaders;
             }
         });
     for (std::thread& each : threads) each.join();

@@ -20,6 +20,8 @@ struct OpenOptions {
     /// Whether the server ends the session soon after its stream, so that a killed process leaves nothing behind.
     /// False: a session that rests, or is watched between two streams, stays until the Session goes.
     bool ephemeral = true;
+    /// Whether a stream is about to be opened to it, see SessionOptions; matters where it is not ephemeral.
+    bool stream_follows = false;
     std::stop_token stop{};  ///< when a stop is requested while the session is opened: ServerError (canceled)
 
     template <class Visit>

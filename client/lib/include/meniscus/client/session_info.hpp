@@ -57,6 +57,9 @@ struct SessionOptions {
     /// Whether the session ends, watched or not, 5 seconds after it was created or its stream ended, unless a stream is
     /// open by then. Where the connection broke: after StreamOptions::reconnect, if that is longer.
     bool ephemeral = false;
+    /// Whether a stream is about to be opened to it. Until one is, the server takes a session for one whose simulator
+    /// has vanished (ServerInfo::max_orphan_seconds), unless it is watched.
+    bool stream_follows = false;
 };
 
 struct SessionInfo {
