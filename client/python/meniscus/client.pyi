@@ -58,7 +58,7 @@ class Client:
         smoothing_length: Optional[Real] = 2,
         mode: Optional[Literal["adaptive", "uniform"]] = "adaptive",
         criterion: Optional[Literal["curvature", "count"]] = "curvature",
-        tolerance: Optional[Real] = 0.15,
+        tolerance: Optional[Real] = 0.18,
         count_threshold: Optional[Whole] = 1,
         edge_points: Optional[Literal["interpolate", "bisect"]] = "interpolate",
         bisection_steps: Optional[Whole] = 5,

@@ -32,7 +32,7 @@ class Reconstructor:
     smoothing_length    2: with color or density, in particle radii; the kernel's support is twice that
     mode                "adaptive": three levels of grid, or the finest cell everywhere; "adaptive", "uniform"
     criterion           "curvature": how the level of a base cell is decided; "curvature", "count"
-    tolerance           0.15: with curvature, how far the surface may depart from that of the finest cells, in
+    tolerance           0.18: with curvature, how far the surface may depart from that of the finest cells, in
                         those; the default is that of the default field
     count_threshold     1: with count, particles per base cell that decide about level 3
     edge_points         "interpolate": how the point on an edge is found; "interpolate", "bisect"
