@@ -62,10 +62,11 @@ Settings from_wire(const v1::Settings& wire) {
     if (wire.has_domain()) from_wire(wire.domain(), "settings.domain");
     Settings settings;
     rows::fill_record(wire, settings, refuse_number);
-    // Our own clients name it. What others do not name stays what it was.
-    constexpr double unnamed_tolerance = 0.15;
-    if (auto* const curvature = std::get_if<CurvatureCriterion>(&settings.criterion))
-        if (!curvature->tolerance) curvature->tolerance = unnamed_tolerance;
+    // Our own clients name it. What others leave out stays what it was.
+    constexpr double absent_tolerance = 0.15;
+    auto* const curvature = std::get_if<CurvatureCriterion>(&settings.criterion);
+    if (settings.mode == Mode::adaptive && curvature != nullptr && !curvature->tolerance)
+        curvature->tolerance = absent_tolerance;
     // Sessions of one surface have equal settings, whether or not their makers named a default.
     return in_force(settings);
 }

@@ -92,6 +92,7 @@ TEST(SettingsConversion, TakesAFieldThatIsNotSetForTheSmoothOne) {
     EXPECT_EQ(from_wire(wire), from_wire(wire_of(v1::FIELD_SMOOTH)));
     Settings defaults;
     defaults.particle_radius = 0.25;
+    defaults.criterion = CurvatureCriterion{0.15};
     EXPECT_EQ(from_wire(wire), in_force(defaults));
     wire.set_smoothing_length(2.0);
     EXPECT_NE(refusal(wire).find("the smoothing length is 2, but the field is smooth"), std::string::npos);
@@ -99,10 +100,22 @@ TEST(SettingsConversion, TakesAFieldThatIsNotSetForTheSmoothOne) {
 
 TEST(SettingsConversion, MakesSettingsEqualWhetherOrNotADefaultIsNamed) {
     for (const v1::Field field : {v1::FIELD_COLOR, v1::FIELD_DENSITY, v1::FIELD_SMOOTH}) {
-        const Settings unnamed = from_wire(wire_of(field));
+        v1::Settings wire = wire_of(field);
+        wire.mutable_curvature()->set_tolerance(0.18);
+        const Settings unnamed = from_wire(wire);
         EXPECT_EQ(from_wire(to_wire(unnamed)), unnamed);
         EXPECT_EQ(in_force(of_field(unnamed.field)), unnamed) << name_of(unnamed.field);
     }
+}
+
+TEST(SettingsConversion, KeepsWhatAnAbsentToleranceMeans) {
+    for (const v1::Field field : {v1::FIELD_COLOR, v1::FIELD_DENSITY, v1::FIELD_SMOOTH}) {
+        v1::Settings wire = wire_of(field);
+        EXPECT_EQ(tolerance(from_wire(wire)), 0.15);
+        wire.mutable_curvature();
+        EXPECT_EQ(tolerance(from_wire(wire)), 0.15);
+    }
+    EXPECT_EQ(tolerance(from_wire(to_wire(of_field(Field::smooth)))), tolerance(Settings{}));
 }
 
 TEST(SettingsConversion, SendsWhatWasGivenForAnotherFieldForTheReceiverToRefuse) {

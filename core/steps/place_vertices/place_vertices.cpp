@@ -38,8 +38,7 @@ void find_iso_values(const BlocksView& blocks, std::uint32_t block, const State&
         for (std::size_t i = vertices.first[axis]; i < vertices.first[axis + 1]; ++i) {
             const int bit = vertices.bit[i];
             const auto faces = static_cast<unsigned>((low_u >> bit & 1) | (low_v >> bit & 1) << 1);
-            if ((known >> faces & 1) == 0)
-                shifted[faces] = iso + iso_shift(axis, bit, cell_at);
+            if ((known >> faces & 1) == 0) shifted[faces] = iso + iso_shift(axis, bit, cell_at);
             known |= 1U << faces;
             vertices.iso[i] = shifted[faces];
         }

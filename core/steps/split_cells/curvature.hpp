@@ -38,7 +38,7 @@ MENISCUS_HD inline F divisor(F x, F y, F z) {
 }  // namespace curvature_detail
 
 /// A point of the surface by the trilinear model of the cell's corners: three Newton steps along the gradient from the
-/// middle (a fourth changes nothing: core/README.md#newton-steps-three-and-two). Coordinates of 0 to 1.
+/// middle (a fourth changes nothing: core/README.md#newton-steps-three-and-one). Coordinates of 0 to 1.
 template <class F>
 MENISCUS_HD inline Point3<F> trilinear_root(const CellCorners<F>& corners) {
     Point3<F> p{F(0.5F), F(0.5F), F(0.5F)};
@@ -110,7 +110,7 @@ MENISCUS_HD inline SurfaceBend<F> surface_bend(const FieldJet<F>& j, float iso) 
 }
 
 /// A cell whose corners agree is looked at once more where the first step ends this near outside of it, units
-/// (measured: core/README.md#newton-steps-three-and-two).
+/// (measured: core/README.md#newton-steps-three-and-one).
 inline constexpr float look_again_within = 0.5F * units_per_cell;
 
 /// The result of search_surface().

@@ -66,6 +66,7 @@ TEST(Sessions, FillDefaultsIn) {
     ASSERT_TRUE(create_raw(running, id, id, wire).ok());
     Settings defaults;
     defaults.particle_radius = radius;
+    defaults.criterion = CurvatureCriterion{0.15};  // a tolerance that is absent
     EXPECT_EQ(running.client.session(id).settings, in_force(defaults));
 }
 
