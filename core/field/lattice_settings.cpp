@@ -104,7 +104,6 @@ LatticeSettings::LatticeSettings(const Settings& s) {
     is_adaptive = s.mode == Mode::adaptive;
     if (is_adaptive) std::visit([this](const auto& criterion) { use(*this, criterion); }, s.criterion);
     std::visit([this](const auto& edge_points) { use(*this, edge_points); }, s.edge_points);
-    moves_coarse_vertices = measures_bends && !bisects;
     offset_bits = meniscus::offset_bits(s);
     has_normals = s.normals;
     may_have_attributes = s.all_attributes || !s.attributes.empty();

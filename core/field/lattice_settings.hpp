@@ -7,6 +7,7 @@
 
 #include "field/smooth_field.hpp"
 #include "lattice/coordinates.hpp"
+#include "lattice/host_device.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 
@@ -50,8 +51,6 @@ struct LatticeSettings {
 
     // Vertices.
     bool bisects = false;
-    bool moves_coarse_vertices =
-        false;  ///< whether vertices lie half a sagitta out, see steps/place_vertices/coarse_edges.hpp
     std::uint32_t bisection_steps = 0;  ///< number of steps on a finest edge
     std::uint32_t offset_bits = 6;
     bool has_normals = true;
@@ -59,6 +58,9 @@ struct LatticeSettings {
 
     bool has_domain = false;
     Int3 domain_low, domain_high;  ///< in cells, rounded outward
+
+    /// Whether vertices of coarse edges lie half a sagitta out (steps/place_vertices/coarse_edges.hpp).
+    MENISCUS_HD bool moves_coarse_vertices() const { return measures_bends && !bisects; }
 
     /// The settings must be valid.
     explicit LatticeSettings(const Settings& settings);

@@ -15,6 +15,14 @@ MENISCUS_HD constexpr int bit_step(int axis) {
     return axis == 0 ? 1 : axis == 1 ? 4 : 16;
 }
 
+// The other two axes, in ascending order.
+MENISCUS_HD constexpr int lateral_u(int axis) {
+    return axis == 0 ? 1 : 0;
+}
+MENISCUS_HD constexpr int lateral_v(int axis) {
+    return axis == 2 ? 1 : 2;
+}
+
 MENISCUS_HD constexpr int point_bit(int x, int y, int z) {
     return x + 4 * y + 16 * z;
 }

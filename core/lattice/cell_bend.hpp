@@ -1,4 +1,4 @@
-// What is known of the surface in a base cell before it is sampled.
+// The bend of the surface in a base cell, known before the cell is sampled.
 #pragma once
 
 namespace meniscus {

@@ -62,7 +62,7 @@ Settings from_wire(const v1::Settings& wire) {
     if (wire.has_domain()) from_wire(wire.domain(), "settings.domain");
     Settings settings;
     rows::fill_record(wire, settings, refuse_number);
-    // Our own clients name it. What others leave out stays what it was.
+    // Our own clients send a tolerance. An absent one keeps its first meaning.
     constexpr double absent_tolerance = 0.15;
     auto* const curvature = std::get_if<CurvatureCriterion>(&settings.criterion);
     if (settings.mode == Mode::adaptive && curvature != nullptr && !curvature->tolerance)

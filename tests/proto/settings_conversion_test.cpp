@@ -101,7 +101,7 @@ TEST(SettingsConversion, TakesAFieldThatIsNotSetForTheSmoothOne) {
 TEST(SettingsConversion, MakesSettingsEqualWhetherOrNotADefaultIsNamed) {
     for (const v1::Field field : {v1::FIELD_COLOR, v1::FIELD_DENSITY, v1::FIELD_SMOOTH}) {
         v1::Settings wire = wire_of(field);
-        wire.mutable_curvature()->set_tolerance(0.18);
+        wire.mutable_curvature()->set_tolerance(tolerance(Settings{}));
         const Settings unnamed = from_wire(wire);
         EXPECT_EQ(from_wire(to_wire(unnamed)), unnamed);
         EXPECT_EQ(in_force(of_field(unnamed.field)), unnamed) << name_of(unnamed.field);

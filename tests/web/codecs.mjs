@@ -84,11 +84,12 @@ describe('codecs', { skip: missing || without }, () => {
 
   it('need not bring normals: with those of the viewer the picture is nearly the same', async () => {
     const server = await startServer();
-    const { file } = await recordedFile();
-    const replay = startUploader(server, ['replay', file, '--speed', 'max', '--to', '31', '--keep-session']);
-    await replay.finished();
-    const sent = await picture(server, '', `session=${replay.session}`);
-    const own = await picture(server, '&normals-by=receiver', `session=${replay.session}`);
+    // Cells that are the same whatever the default: the larger they are, the less is known of the normals between.
+    const dam = ['simulate', '--scene', 'dam-break', '--particles', '2000', '--frames', '32', '--tolerance', '0.15'];
+    const simulator = startUploader(server, [...dam, '--keep-session']);
+    await simulator.finished();
+    const sent = await picture(server, '', `session=${simulator.session}`);
+    const own = await picture(server, '&normals-by=receiver', `session=${simulator.session}`);
     assert.ok(
       own.answer
         .request()
@@ -99,7 +100,7 @@ describe('codecs', { skip: missing || without }, () => {
     const { mean, pixels } = await difference(sent.png, own.png);
     console.log(`normals of the viewer: ${pixels} pixels differ, all by ${mean} in the mean`);
     assert.ok(pixels > 0);
-    assert.ok(mean < 1.5);
+    assert.ok(mean < 1);
   });
 
   it('are chosen by the address, and else for speed on the machine of the server', async () => {

@@ -19,9 +19,9 @@ TriangleMesh read_mesh(const std::filesystem::path& path, std::optional<MeshForm
                            listed(read_mesh_formats()));
     TriangleMesh mesh = row.read(name, bytes, limits);
     if (mesh.triangles.empty() && !mesh.positions.empty())
-        throw InvalidInput(name + ": has " + std::to_string(mesh.positions.size()) +
-                           " points and no triangles, so that it has particles: a mesh has triangles, and reconstruct "
-                           "makes one of them");
+        throw InvalidInput(name + ": has no triangles, and " + std::to_string(mesh.positions.size()) +
+                           (mesh.positions.size() == 1 ? " point" : " points") +
+                           ": a mesh has triangles, and reconstruct makes one of particles");
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         for (const double x : mesh.positions[i])
             if (!std::isfinite(x))

@@ -77,14 +77,12 @@ private:
         std::uint64_t of_length[edge_lengths] = {};  ///< by length index
         std::uint64_t finest = 0;                    ///< that they come down to, when it encodes
     };
-    /// What is known of a column.
+    /// The known part of a column.
     struct Line {
         std::uint64_t crossed = 0;  ///< finest edges whose offset is known, by their low ends
         std::uint64_t inside = 0;   ///< points inside: low ends and middles of crossed edges
     };
 
-    static constexpr int lateral_u(int axis) { return axis == 0 ? 1 : 0; }
-    static constexpr int lateral_v(int axis) { return axis == 2 ? 1 : 2; }
     /// The number of an edge: points times its column, and its low end's place along that.
     static constexpr int edge_number(const Int3& at, int axis) {
         const int coordinate[3] = {at.x, at.y, at.z};
@@ -254,7 +252,7 @@ private:
             const int down = std::countl_zero(alike << (points - 1 - middle));
             const int there = (up <= down ? middle + up : middle - down) & (points - 1);
             const int has = std::min(up, down) <= reach ? 1 : 0;
-            // What is not there has no weight: any number does.
+            // A neighbor that is not there has no weight: any number does.
             const auto edge = static_cast<std::size_t>(-has & (beside * points + there));
             x[n] = unit_ * (there - k) + offsets[edge] - unit_ * length / 2;
             set |= has << n;

@@ -44,7 +44,7 @@ struct GroupValues {
 using ClusterPoints = std::array<BlockMask, cluster_blocks>;
 /// Values at some points of the blocks of a cluster.
 struct ClusterValues {
-    /// Each block's values in the order of its points' bits. Who asks says where those of a whole block shall go;
+    /// Each block's values in the order of its points' bits. The caller sets the place for those of a whole block;
     /// others are in `room`, with whole lanes to read.
     std::array<float*, cluster_blocks> of;
     float room[64 * cluster_blocks + WideLanes::count];

@@ -34,8 +34,8 @@ MENISCUS_HD inline std::uint64_t cells_to_promote(const LevelSets& levels, std::
         const int axis = static_cast<int>(group >> 1);
         const int side = (group & 1) != 0 ? 1 : -1;
         // The cell across comes later in (z, y, x) exactly if it lies up the later of the two axes, v.
-        const Int3 along_v = axis_offset(axis == 2 ? 1 : 2, 1);
-        const Int3 along_u = axis_offset(axis == 0 ? 1 : 0, side);
+        const Int3 along_v = axis_offset(lateral_v(axis), 1);
+        const Int3 along_u = axis_offset(lateral_u(axis), side);
         const std::uint64_t finer2 =
             coarse & levels.at_least[2].moved(brick, w, along_v) & levels.at_least[2].moved(brick, w, along_u);
         if (finer2 == 0) continue;

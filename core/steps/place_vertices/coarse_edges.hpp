@@ -14,7 +14,7 @@ namespace meniscus {
 /// Share of the departure s^2 tr that vertices are moved by.
 inline constexpr float half_sagitta = 0.05F;
 
-/// What an edge needs of a cell that has it.
+/// The part of a cell that its edges need.
 struct CellAtEdge {
     int level = 0;
     float trace = 0.0F;  ///< see CellBend
@@ -30,8 +30,8 @@ struct CellAtEdge {
 /// CellAtEdge there.
 template <class Cell>
 MENISCUS_HD inline float iso_shift(int axis, int bit, const Cell& cell) {
-    const int u = axis == 0 ? 1 : 0;
-    const int v = axis == 2 ? 1 : 2;
+    const int u = lateral_u(axis);
+    const int v = lateral_v(axis);
     const bool is_low[2] = {point_coordinate(bit, u) == 0, point_coordinate(bit, v) == 0};
     int highest = 0;
     int found = 0;

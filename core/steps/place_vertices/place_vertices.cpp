@@ -30,8 +30,8 @@ void find_iso_values(const BlocksView& blocks, std::uint32_t block, const State&
         return cells[i];
     };
     for (int axis = 0; axis < 3; ++axis) {
-        const BlockMask low_u = low_face(axis == 0 ? 1 : 0);
-        const BlockMask low_v = low_face(axis == 2 ? 1 : 2);
+        const BlockMask low_u = low_face(lateral_u(axis));
+        const BlockMask low_v = low_face(lateral_v(axis));
         // All edges along an axis that lie on the same low faces have the same cells.
         float shifted[4];
         unsigned known = 0;
@@ -53,7 +53,7 @@ void interpolate(const BlocksView& blocks, std::uint32_t block, const State& sta
             interpolated_offset(WideLanes::load(vertices.low + i), WideLanes::load(vertices.high + i), iso_at(i), bits)
                 .store(vertices.offset + i);
     };
-    if (settings.moves_coarse_vertices && blocks.level[block] != 3) {
+    if (settings.moves_coarse_vertices() && blocks.level[block] != 3) {
         find_iso_values(blocks, block, state, vertices);
         place([&](std::size_t i) { return WideLanes::load(vertices.iso + i); });
     } else {

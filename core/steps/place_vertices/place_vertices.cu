@@ -108,7 +108,7 @@ __global__ void __launch_bounds__(block_threads, 2)
                 }
             } else {
                 const float shift =
-                    state.settings.moves_coarse_vertices
+                    state.settings.moves_coarse_vertices()
                         ? iso_shift(v.axis, v.bit,
                                     [&](int cell) {
                                         return CellAtEdge(blocks, state.bends,

@@ -21,8 +21,8 @@ MENISCUS_HD inline BlockMask used_edges(const LevelsAround& around, int axis, in
     const BlockMask points = stride_points(level_stride(level));
     if (around.own_is_finest()) return level == 3 ? points : 0;
     const int cells = around.at_least[level] & ~around.at_least[level + 1];
-    const int u = axis == 0 ? 1 : 0;
-    const int v = axis == 2 ? 1 : 2;
+    const int u = lateral_u(axis);
+    const int v = lateral_v(axis);
     const auto of_cell = [cells](int down, BlockMask edges) { return (cells >> down & 1) != 0 ? edges : 0; };
     return of_cell(0, points) | of_cell(1 << u, points & low_face(u)) | of_cell(1 << v, points & low_face(v)) |
            of_cell(1 << u | 1 << v, points & low_face(u) & low_face(v));

@@ -120,11 +120,19 @@ public:
         found.bend.curvature.store(curvature_);
         found.bend.trace.store(trace_);
         found.inside.store(inside_);
+        found.again.store(again_);
+    }
+
+    /// The number of points at which the field was evaluated.
+    std::uint64_t evaluations() const {
+        std::uint64_t looks = static_cast<std::uint64_t>(count_);
+        for (int i = 0; i < count_; ++i) looks += again_[i] == 1.0F ? 1 : 0;
+        return looks;
     }
 
     void enter_bends(State& state, const BlobRule& blobs) const {
         for (int i = 0; i < count_; ++i)
-            state.bends[block_[i]] = cell_bend({{curvature_[i], trace_[i]}, inside_[i]}, inside_corners_[i],
+            state.bends[block_[i]] = cell_bend({{curvature_[i], trace_[i]}, inside_[i], again_[i]}, inside_corners_[i],
                                                blobs.least_level(inside_corners_[i], state.reaches[block_[i]]));
     }
 
@@ -136,6 +144,7 @@ private:
     alignas(64) float curvature_[cluster_blocks];
     alignas(64) float trace_[cluster_blocks];
     alignas(64) float inside_[cluster_blocks];
+    alignas(64) float again_[cluster_blocks];
     std::uint32_t block_[cluster_blocks];
     int inside_corners_[cluster_blocks];
     int count_ = 0;
@@ -169,7 +178,7 @@ void measure(State& state, NeighborSearch& search) {
                 // A sheet of cells fills half of a wide register.
                 with_lanes_for(cells.count(), [&]<class F>() { cells.search<Kernel, F>(iso, near_box); });
                 cells.enter_bends(state, blobs);
-                here += static_cast<std::uint64_t>(cells.count());
+                here += cells.evaluations();
             });
         }
         evaluations.fetch_add(here, std::memory_order_relaxed);

@@ -77,7 +77,7 @@ __global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_co
         if (is_asked)
             state.bends[block] =
                 cell_bend(search, inside_corners, blobs.least_level(inside_corners, state.reaches[block]));
-        evaluations += is_asked ? 1 : 0;
+        evaluations += is_asked ? (search.again == 1.0F ? 2 : 1) : 0;
     });
     add_of_lanes(&state.counts->field_evaluations, evaluations);
 }

@@ -118,6 +118,7 @@ template <class F>
 struct SurfaceSearch {
     SurfaceBend<F> bend;
     F inside;  ///< distance of the point found from the cell's nearest face, units; negative if it left the cell
+    F again;   ///< 1 where the cell was looked at once more, else 0
 };
 
 namespace curvature_detail {
@@ -156,7 +157,7 @@ MENISCUS_HD inline SurfaceSearch<F> search_surface(const CellCorners<F>& corners
         jet = jet_at(q);
         end = newton_step(jet, iso, q);
     }
-    return {surface_bend(jet, iso), depth_in_cell(end, corner)};
+    return {surface_bend(jet, iso), depth_in_cell(end, corner), again};
 }
 
 }  // namespace meniscus

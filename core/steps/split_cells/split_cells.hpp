@@ -41,7 +41,7 @@ struct UniformRule {
 /// core/README.md#neighbors-05-and-05).
 struct CurvatureRule {
     const CellBend* cells = nullptr;  ///< per block
-    float tolerance = 0.15F;          ///< largest departure, in cells
+    float tolerance = 0.0F;           ///< largest departure, in cells
 
     MENISCUS_HD int operator()(const BlocksView& blocks, std::uint32_t block) const {
         int level = of_curvature(cells[block].curvature);

@@ -20,7 +20,7 @@ namespace meniscus::server {
 /// turns than one with a single session. A session asks for one turn per frame. A turn that lasts for long is over once
 /// another name waits: its turn begins, and both go on side by side. No name has two turns at a time. The one that
 /// began first leads, until it has ended: so that what two cannot have at a time, such as most of the memory, is one's
-/// alone. Whoever begins while none leads, leads.
+/// alone. A turn that begins while none leads, leads.
 class Turns {
 public:
     using Clock = std::chrono::steady_clock;
@@ -82,7 +82,7 @@ private:
     // With the lock held.
     /// The name's, which may be new.
     Lines::iterator line_of(const std::string& name);
-    /// The number of the turn that begins next; none where nobody who waits may begin.
+    /// The number of the turn that begins next; none where no waiting one may begin.
     std::optional<std::uint64_t> next() const;
     bool is_over() const { return !began_ || (longest_ && Clock::now() - *began_ >= *longest_); }
     void end_present();

@@ -19,7 +19,7 @@ inline constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 inline constexpr std::size_t min_message_bytes = chunk_bytes + 1024;
 inline constexpr std::size_t max_message_bytes = std::numeric_limits<int>::max();
 
-/// What the share below leaves of a limit.
+/// The part of a limit that the share below leaves.
 template <class Number>
 constexpr Number an_eighth(Number limit) {
     return limit > 1 ? std::max<Number>(limit / 8, 1) : 0;

@@ -18,7 +18,8 @@ namespace meniscus::server {
 
 namespace {
 
-/// Limits the memory of a reconstruction for a turn: beside one that leads, to what no other session may take.
+/// Limits the memory of a reconstruction for a turn: beside one that leads, to the eighth that no other session may
+/// take.
 class MemoryOfTurn {
 public:
     /// is_less: becomes whether the session may have more in a turn that leads, for as long as this limits it.

@@ -110,7 +110,7 @@ TEST_F(CompareCommand, RefusesBadInputInOneLine) {
     const std::string vast = write("vast.obj", "v 0 0 0\nv 1e70 0 0\nv 0 1 0\nf 1 2 3\n");
     expect_refused({good}, "B");
     expect_refused({good, (directory_ / "missing.ply").string()}, "missing.ply");
-    expect_refused({empty, good}, "empty.obj: has 1 points and no triangles");
+    expect_refused({empty, good}, "empty.obj: has no triangles, and 1 point: ");
     expect_refused({good, flat}, "flat.obj: a mesh whose triangles have no area");
     expect_refused({good, vast}, "vast.obj: vertex 1 has the coordinate 1e+70");
     expect_refused({good, write("mesh.stl", "")}, "mesh.stl");

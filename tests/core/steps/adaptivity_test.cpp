@@ -1,6 +1,7 @@
 // The adaptive surface against the uniform one: near everywhere, and nothing lost.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -155,6 +156,39 @@ TEST(Adaptivity, NoHoleOfALooseBlockIsLost) {
     for (const unsigned seed : {1U, 20U, 79U, 215U}) {
         SCOPED_TRACE(seed);
         expect_nothing_lost(loose_block(seed));
+    }
+}
+
+/// Searches a cell at the origin for a plane across x, units; returns whether it looked twice.
+bool looks_again(float plane, bool corners_are_mixed) {
+    const float iso = 0.6F;
+    int looks = 0;
+    const auto jet_at = [&](const Point3<float>& p) {
+        ++looks;
+        FieldJet<float> jet;
+        jet.x = -1e-5F;
+        jet.value = iso + jet.x * (p.x - plane);
+        return jet;
+    };
+    CellCorners<float> corners;
+    for (int i = 0; i < 8; ++i) corners.value[i] = -1e-5F * (static_cast<float>((i & 1) * units_per_base_cell) - plane);
+    const SurfaceSearch<float> found = search_surface(corners, corners_are_mixed ? 1.0F : 0.0F, {0.0F, 0.0F, 0.0F}, iso,
+                                                      jet_at, [](float again) { return again == 1.0F; });
+    EXPECT_EQ(looks, found.again == 1.0F ? 2 : 1);
+    EXPECT_NEAR(found.inside, std::min(plane, static_cast<float>(units_per_base_cell) - plane), 16.0F);
+    return looks == 2;
+}
+
+TEST(Adaptivity, ACellIsLookedAtTwiceWhereItsCornersAgreeAndTheSurfaceIsNear) {
+    constexpr float edge = units_per_base_cell;
+    EXPECT_FALSE(looks_again(0.3F * edge, true));
+    for (const float beyond : {0.4F, 0.1F, -0.3F * base_cell_size}) {
+        EXPECT_TRUE(looks_again(edge + beyond * units_per_cell, false)) << beyond;
+        EXPECT_TRUE(looks_again(-beyond * units_per_cell, false)) << beyond;
+    }
+    for (const float beyond : {0.6F, 3.0F, 40.0F}) {
+        EXPECT_FALSE(looks_again(edge + beyond * units_per_cell, false)) << beyond;
+        EXPECT_FALSE(looks_again(-beyond * units_per_cell, false)) << beyond;
     }
 }
 

@@ -28,7 +28,7 @@ struct NoiseWorld {
 /// The iso-value is 1.
 Settings noise_settings(const NoiseWorld& world);
 
-/// What the first steps find out about every base cell of the world, in the order of their numbers.
+/// The findings of the first steps about every base cell of the world, in the order of their numbers.
 struct NoiseLevels {
     std::vector<std::uint8_t> wanted;
     std::vector<bool> starts;     ///< whether a cell starts in the band, even if its corners agree

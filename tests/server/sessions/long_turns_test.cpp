@@ -1,4 +1,4 @@
-// A frame that takes for long, and those of others beside it: what each may hold of the memory.
+// The memory that a long frame may hold, and frames of others beside it.
 #include <gtest/gtest.h>
 
 #include <atomic>

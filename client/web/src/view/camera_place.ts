@@ -1,4 +1,4 @@
-// Where the camera is and what it looks at, and how far that is from another such place.
+// The place of a camera and its target, and the distance from another such place.
 import type { Point } from './bounds';
 
 /** World units. */
@@ -7,7 +7,7 @@ export interface CameraPlace {
   readonly target: Point;
 }
 
-/** Up to what the way through the scene's coordinates costs. */
+/** But for rounding on the way through the scene's coordinates. */
 export function samePlace(a: CameraPlace, b: CameraPlace): boolean {
   return apart(a, b) <= 1e-6 * lengthOf(a);
 }

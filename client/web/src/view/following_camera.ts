@@ -5,7 +5,7 @@ import type { CameraControls } from './camera_controls';
 import { apart, lengthOf, samePlace, type CameraPlace } from './camera_place';
 import { framing, type Margins } from './fit';
 
-/** What is to be seen in a picture, in the scene. */
+/** The points that a picture has to show, in the scene. */
 export interface Sight {
   /** All but a few of them. */
   readonly points: readonly Vector3[];
@@ -115,7 +115,7 @@ export class FollowingCamera {
     this.scene.draw();
   }
 
-  /** It stays with what is seen of the water, as that goes. box: around the water now. */
+  /** The camera goes with the water that it shows. box: around the water now. */
   follow(box: WorldBox | undefined): void {
     if (!box || !this.following) return;
     if (!contains(this.following, box)) {
@@ -142,7 +142,7 @@ export class FollowingCamera {
     if (!near) this.scene.draw();
   }
 
-  /** From where what matters of the mesh is seen, beside what covers the picture; none where there is no mesh. */
+  /** The place from which the mesh is seen, beside the panels that cover the picture; none where there is no mesh. */
   private placeToSee(): CameraPlace | undefined {
     const { points, all, width, height, covered } = this.scene.sight();
     if (points.length + all.length === 0 || width === 0 || height === 0) return undefined;

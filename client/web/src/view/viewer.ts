@@ -348,7 +348,7 @@ export class Viewer {
     return unionOf([this.box, this.beside]);
   }
 
-  /** What matters of the mesh, and the box beside it. */
+  /** The mesh but for its outliers, and the box beside it. */
   private sight(): Sight {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const points = this.shown ? occupied(this.shown).map((point) => this.inScene(point)) : [];

@@ -223,7 +223,7 @@ TEST(LongTurns, PassByWhoNeedsToLeadWhileAnotherOneDoes) {
 }
 
 TEST(LongTurns, OfWhoNeedsToLeadComeBeforeThoseWhoAskedLater) {
-    // The others' turns are longer than this test: whoever is not next waits for the end of who is.
+    // The others' turns are longer than this test: each waits for the end of the one before it.
     Turns turns(std::chrono::minutes(10));
     std::optional<Turns::Turn> first = turns.wait({}, "ada");
     std::vector<std::string> order;
@@ -249,8 +249,8 @@ TEST(Turns, EachLeadWhereNoneIsOverBeforeItsEnd) {
         EXPECT_TRUE(turns.wait({}, "ada", {}, needs)->leads());
 }
 
-/// Many who ask again and again, and keep some of their turns for longer than they may: each has all of its turns, and
-/// one leads at a time.
+/// Many threads that ask again and again, and keep some of their turns for longer than they may: each has all of its
+/// turns, and one leads at a time.
 TEST(LongTurns, GoRoundAmongMany) {
     Turns turns(std::chrono::microseconds(50));
     std::atomic<int> had{0};

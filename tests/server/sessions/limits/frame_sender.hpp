@@ -1,4 +1,4 @@
-// Who sends a frame to the bytes in flight.
+// A stream, as far as it sends a frame to the bytes in flight.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace meniscus::server::test {
 
-/// A stream that sends a frame: what has arrived is booked, or it waits.
+/// Each part of the frame is booked when it has arrived, or the stream waits.
 struct Sender {
     explicit Sender(const std::shared_ptr<BytesInFlight>& all,
                     std::shared_ptr<SessionInFlight> session = std::make_shared<SessionInFlight>())
