@@ -1,34 +1,16 @@
 #include <gtest/gtest.h>
-#include <spdlog/sinks/sink.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <future>
 #include <memory>
-#include <string_view>
 #include <thread>
 
+#include "held_opening.hpp"
 #include "running_server.hpp"
 
 namespace meniscus::server::test {
 namespace {
-
-/// Holds a thread that logs the opening of a stream until it is released.
-class HeldOpening final : public spdlog::sinks::sink {
-public:
-    void log(const spdlog::details::log_msg& message) override {
-        const std::string_view text(message.payload.data(), message.payload.size());
-        if (!text.ends_with(" opened")) return;
-        held.set_value();
-        released.get_future().wait();
-    }
-    void flush() override {}
-    void set_pattern(const std::string& /*pattern*/) override {}
-    void set_formatter(std::unique_ptr<spdlog::formatter> /*formatter*/) override {}
-
-    std::promise<void> held;
-    std::promise<void> released;
-};
 
 TEST(Shutdown, EndsAStreamThatIsBeingOpened) {
     const auto opening = std::make_shared<HeldOpening>();

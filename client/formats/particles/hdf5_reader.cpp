@@ -55,6 +55,22 @@ private:
     void* data_ = nullptr;
 };
 
+/// A file names filters by their numbers, and the library would look for what it does not know among the libraries of
+/// HDF5_PLUGIN_PATH, and load them.
+class NoPlugins {
+public:
+    NoPlugins() {
+        H5PLget_loading_state(&loaded_);
+        H5PLset_loading_state(0);
+    }
+    ~NoPlugins() { H5PLset_loading_state(loaded_); }
+    NoPlugins(const NoPlugins&) = delete;
+    NoPlugins& operator=(const NoPlugins&) = delete;
+
+private:
+    unsigned loaded_ = 0;
+};
+
 /// From the bytes, which the library copies: a file may have been standard input.
 Handle open_image(const ByteCursor& at, std::string_view bytes) {
     constexpr std::size_t growth = 4096;
@@ -118,16 +134,16 @@ public:
     Access& operator=(const Access&) = delete;
 
     hid_t list() const { return list_; }
-    /// The file that a link named since the last call; empty: none did.
-    std::string elsewhere() { return std::exchange(elsewhere_, {}); }
+    /// The file that a link named since the last call; none: none did.
+    std::optional<std::string> elsewhere() { return std::exchange(elsewhere_, std::nullopt); }
 
 private:
     static herr_t stop(const char*, const char*, const char* file, const char*, unsigned*, hid_t, void* elsewhere) {
-        *static_cast<std::string*>(elsewhere) = file;
+        *static_cast<std::optional<std::string>*>(elsewhere) = file;
         return -1;
     }
 
-    std::string elsewhere_;
+    std::optional<std::string> elsewhere_;
     Handle list_;
 };
 
@@ -183,8 +199,7 @@ private:
 
     Handle open_group(const std::string& path) {
         Handle group(H5Gopen2(file_, path.c_str(), groups_.list()), H5Gclose);
-        if (const std::string file = groups_.elsewhere(); !file.empty())
-            refuse_other_file("group " + quoted(path) + " lies", file);
+        if (const auto file = groups_.elsewhere()) refuse_other_file("group " + quoted(path) + " lies", *file);
         return group;
     }
 
@@ -233,6 +248,7 @@ private:
     /// Before a value is read, or another file looked for.
     void refuse_values_of_other_files(hid_t set, const std::string& name) {
         const Handle made(H5Dget_create_plist(set), H5Pclose);
+        if (!made.there()) at_.fail("dataset " + quoted(name) + " does not say where it has its values: it is damaged");
         std::array<char, 256> file{};
         if (H5Pget_external_count(made) > 0) {
             H5Pget_external(made, 0, file.size() - 1, file.data(), nullptr, nullptr);
@@ -259,8 +275,7 @@ private:
     /// shape: what it turned out to be.
     Handle open(hid_t group, const std::string& name, Dataset& shape) {
         Handle set(H5Dopen2(group, name.c_str(), sets_.list()), H5Dclose);
-        if (const std::string file = sets_.elsewhere(); !file.empty())
-            refuse_other_file("dataset " + quoted(name) + " lies", file);
+        if (const auto file = sets_.elsewhere()) refuse_other_file("dataset " + quoted(name) + " lies", *file);
         if (!set.there()) return set;
         refuse_values_of_other_files(set, name);
         const Handle type(H5Dget_type(set), H5Tclose);
@@ -348,6 +363,7 @@ private:
     ByteCursor at_;
     ReadBudget budget_;
     Quiet quiet_;
+    NoPlugins no_plugins_;
     Handle file_;
     Access groups_{H5P_GROUP_ACCESS};
     Access sets_{H5P_DATASET_ACCESS};

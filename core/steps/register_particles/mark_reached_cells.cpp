@@ -54,6 +54,19 @@ std::uint32_t mark_reached(Brick& brick, float x, float y, float z, float suppor
     return box.count();
 }
 
+/// Each brick is touched, so that the system gives its pages: lone particles by the million have gigabytes of them.
+void resize_in_parts(Array<Brick>& bricks, std::size_t n, const Workers& workers) {
+    constexpr std::size_t at_once = 4096;
+    if (bricks.capacity() < n) {
+        release(bricks);
+        bricks.reserve(with_room_to_grow(n));
+    }
+    do {
+        workers.go_on();
+        bricks.resize(std::min(bricks.size() + at_once, n));
+    } while (bricks.size() < n);
+}
+
 }  // namespace
 
 std::uint64_t mark_reached_cells(ParticleSets& sets, BrickGrid& grid) {
@@ -79,7 +92,7 @@ std::uint64_t mark_reached_cells(ParticleSets& sets, BrickGrid& grid) {
     sets.reached_bricks.erase(std::unique(sets.reached_bricks.begin(), sets.reached_bricks.end()),
                               sets.reached_bricks.end());
 
-    resize_for_overwrite(grid.bricks, sets.reached_bricks.size());
+    resize_in_parts(grid.bricks, sets.reached_bricks.size(), sets.workers);
     resize_for_overwrite(grid.keys, sets.reached_bricks.size());
     std::atomic<std::uint64_t> pairs{0};
     sets.workers.for_ranges(sets.reached_bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {

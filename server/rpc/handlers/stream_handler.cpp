@@ -223,8 +223,9 @@ private:
     }
 
     /// A session that another stream uploads to is asked for again, for a moment: the client of a stream that gRPC has
-    /// ended, for a message that is too large, knows of its end before the session does.
-    void open_or_wait() {
+    /// ended, for a message that is too large, knows of its end before the session does. False: another attempt
+    /// follows.
+    bool open_or_wait() {
         constexpr auto patience = std::chrono::milliseconds(100);
         try {
             open(request_.open());
@@ -233,9 +234,10 @@ private:
             if (!open_until_) open_until_ = now + patience;
             if (refusal.kind() != Refusal::Kind::failed_precondition || now >= *open_until_) throw;
             open_again_soon();
-            return;
+            return false;
         }
         request_input();
+        return true;
     }
 
     void open_again_soon() {
@@ -243,17 +245,30 @@ private:
         {
             const std::lock_guard lock(mutex_);
             working_ = false;
+            waits_to_open_ = true;
         }
         alarm_ = std::make_unique<grpc::Alarm>();
-        alarm_->Set(std::chrono::system_clock::now() + pause, [weak = weak_from_this()](bool rang) {
-            const auto self = rang ? weak.lock() : nullptr;
-            if (!self || !self->begin_work()) return;
-            try {
-                self->open_or_wait();
-            } catch (...) {
-                self->end_reading(std::current_exception());
-            }
+        alarm_->Set(std::chrono::system_clock::now() + pause, [weak = weak_from_this()](bool /*rang*/) {
+            if (const auto self = weak.lock()) self->open_again();
         });
+    }
+
+    /// gRPC knows nothing of the alarm: once the call is finished, it frees the context, whatever is under way here.
+    void open_again() {
+        bool is_over = true;
+        if (begin_work()) {
+            try {
+                is_over = open_or_wait();
+            } catch (...) {
+                end_reading(std::current_exception());
+            }
+        }
+        if (!is_over) return;
+        {
+            const std::lock_guard lock(mutex_);
+            waits_to_open_ = false;
+        }
+        write();
     }
 
     void open(const v1::StreamOpen& message) {
@@ -371,7 +386,7 @@ private:
         InputFrame* unused = nullptr;
         {
             const std::lock_guard lock(mutex_);
-            if (finished_) return;
+            if (finished_ || waits_to_open_) return;
             if (writing_) {
                 // Otherwise a client that takes nothing would never learn of the end, and its call stay for good.
                 if (upload_ && upload_->output.aborted() && !timer_.runs()) timer_.start(last_message_patience);
@@ -454,6 +469,7 @@ private:
     std::optional<std::exception_ptr> refusal_;
     std::string outcome_;
     bool working_ = false;         ///< the reading side, on a message
+    bool waits_to_open_ = false;   ///< until its last attempt is over; nothing is written, and the call not finished
     bool waits_for_room_ = false;  ///< the reading side
     bool booked_already_ = false;  ///< before it waited
     bool in_frame_ = false;

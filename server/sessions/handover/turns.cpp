@@ -10,14 +10,15 @@ std::optional<Turns::Turn> Turns::wait(const std::stop_token& stop, const std::s
     std::unique_lock lock(mutex_);
     const std::uint64_t mine = asked_++;
     const Lines::iterator line = line_of(name);
-    line->waiting.push_back({.number = mine, .needs = needs});
+    const Clock::time_point since = Clock::now();
+    line->waiting.push_back({.number = mine, .needs = needs, .since = since});
     const auto is_next = [&] { return next() == mine; };
-    while (!stop.stop_requested() && !(is_next() && is_over())) {
+    while (!stop.stop_requested() && !(is_next() && is_over(since))) {
         // Only the next one looks at the clock.
         if (longest_ && is_next())
-            changed_.wait_until(lock, stop, *began_ + *longest_, [&] { return is_over(); });
+            changed_.wait_until(lock, stop, over_at(since), [&] { return is_over(since); });
         else
-            changed_.wait(lock, stop, [&] { return is_next() && (longest_ || is_over()); });
+            changed_.wait(lock, stop, [&] { return is_next() && (longest_ || is_over(since)); });
     }
     const auto ask_no_more = [&] {
         std::erase_if(line->waiting, [&](const Asked& asked) { return asked.number == mine; });
@@ -61,6 +62,10 @@ std::optional<std::uint64_t> Turns::next() const {
             if (asked.needs == Needs::any_turn || leader_ == 0) return asked.number;
     }
     return std::nullopt;
+}
+
+Turns::Clock::time_point Turns::over_at(Clock::time_point waits_since) const {
+    return std::min(*began_ + *longest_, std::max(*began_ + *longest_ / 32, waits_since + *longest_));
 }
 
 std::string Turns::holder() {

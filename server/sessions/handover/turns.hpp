@@ -18,7 +18,8 @@ namespace meniscus::server {
 
 /// One turn at a time. Names take turns, and so do the sessions of each name: a name with many sessions has no more
 /// turns than one with a single session. A session asks for one turn per frame. A turn that lasts for long is over once
-/// another name waits: its turn begins, and both go on side by side. No name has two turns at a time. The one that
+/// another name waits: its turn begins, and both go on side by side. So that many long ones do not add up, a turn lasts
+/// for a 32nd of that once the next one has itself waited for as long. No name has two turns at a time. The one that
 /// began first leads, until it has ended: so that what two cannot have at a time, such as most of the memory, is one's
 /// alone. A turn that begins while none leads, leads.
 class Turns {
@@ -70,6 +71,7 @@ private:
     struct Asked {
         std::uint64_t number;
         Needs needs;
+        Clock::time_point since;
     };
     /// The turns that wait under one name.
     struct Line {
@@ -84,7 +86,11 @@ private:
     Lines::iterator line_of(const std::string& name);
     /// The number of the turn that begins next; none where no waiting one may begin.
     std::optional<std::uint64_t> next() const;
-    bool is_over() const { return !began_ || (longest_ && Clock::now() - *began_ >= *longest_); }
+    /// When the present turn is over for one that has waited since then. There are a present turn and a longest one.
+    Clock::time_point over_at(Clock::time_point waits_since) const;
+    bool is_over(Clock::time_point waits_since) const {
+        return !began_ || (longest_ && Clock::now() >= over_at(waits_since));
+    }
     void end_present();
 
     const std::optional<Clock::duration> longest_;

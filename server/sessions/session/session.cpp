@@ -227,7 +227,7 @@ std::shared_ptr<Watch> Session::open_watch(const WatchOptions& options, std::fun
 void Session::close_watch(const std::shared_ptr<Watch>& watch) {
     const std::lock_guard lock(mutex_);
     watchers_.remove(watch);
-    if (!watch->options().once) last_used_ = std::chrono::steady_clock::now();
+    if (!watch->options().once) last_used_ = last_attended_ = std::chrono::steady_clock::now();
 }
 
 void Session::finish_upload(const std::shared_ptr<Upload>& upload, std::exception_ptr error) {
@@ -236,7 +236,7 @@ void Session::finish_upload(const std::shared_ptr<Upload>& upload, std::exceptio
     {
         const std::lock_guard lock(mutex_);
         if (upload_ == upload) set_upload(nullptr);
-        last_used_ = std::chrono::steady_clock::now();
+        last_used_ = last_attended_ = std::chrono::steady_clock::now();
         if (std::erase(unanswered_, upload) != 0 && !upload->canceled) {
             without_stream_since_ = last_used_;
             // An earlier stream may end last: its connection was noticed to be dead after a later one had broken, too.
@@ -352,11 +352,13 @@ std::optional<std::string> Session::unused(std::chrono::steady_clock::time_point
     const std::lock_guard lock(mutex_);
     if (upload_) return std::nullopt;
     if (auto reason = unused_as_ephemeral(now)) return reason;
-    const auto unused = unanswered_.empty() && watchers_.count() == 0 ? now - last_used_ : Clock::duration{};
-    const auto reaches = [&](Clock::duration time) { return time.count() != 0 && unused >= time; };
-    if (orphaned_ && reaches(limits().orphan_time))
+    if (!unanswered_.empty() || watchers_.count() != 0) return std::nullopt;
+    const auto reaches = [&](Clock::time_point since, Clock::duration time) {
+        return time.count() != 0 && now - since >= time;
+    };
+    if (orphaned_ && reaches(last_attended_, limits().orphan_time))
         return "its simulator vanished, and nobody has watched or resumed it since";
-    if (!reaches(limits().idle_time)) return std::nullopt;
+    if (!reaches(last_used_, limits().idle_time)) return std::nullopt;
     return fmt::format("nobody has used it for {:.3g} s", seconds_of(limits().idle_time));
 }
 
@@ -396,7 +398,7 @@ void Session::touch() {
 
 void Session::await_stream() {
     const std::lock_guard lock(mutex_);
-    without_stream_since_ = std::chrono::steady_clock::now();
+    without_stream_since_ = last_attended_ = std::chrono::steady_clock::now();
 }
 
 void Session::close() {

@@ -186,6 +186,8 @@ private:
     std::uint64_t dropped_replaced_ = 0;
     std::uint64_t dropped_not_nth_ = 0;
     std::chrono::steady_clock::time_point last_used_ = std::chrono::steady_clock::now();
+    /// By a stream or a watcher: calls that ask about an orphan do not keep it.
+    std::chrono::steady_clock::time_point last_attended_ = last_used_;
     std::shared_ptr<Run> run_;                         ///< of the stream opened last
     std::uint64_t runs_ = 0;                           ///< that have begun
     std::shared_ptr<Upload> upload_;                   ///< the one that sends

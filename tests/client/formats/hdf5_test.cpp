@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #ifdef MENISCUS_HDF5
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 
 #include "formats/particles/particle_file.hpp"
 #include "hostile/hdf5_writing.hpp"
@@ -131,6 +134,30 @@ TEST_F(Hdf5, FilesThatLeadToOthersAreRefusedBeforeAByteOfThoseIsRead) {
             std::filesystem::rename(away, file.other);
         }
     }
+}
+
+TEST_F(Hdf5, AFilterThatTheLibraryDoesNotKnowIsRefusedAndNoLibraryLoadedForIt) {
+    {
+        const Hdf5Writing out(path_);
+        const hid_t made = H5Pcreate(H5P_DATASET_CREATE);
+        const std::array<hsize_t, 2> chunk{2, 3};
+        H5Pset_chunk(made, 2, chunk.data());
+        H5Pset_shuffle(made);
+        out.set("positions", hdf5_rows, {2, 3}, H5T_IEEE_F64LE, made);
+    }
+    std::ifstream in(path_, std::ios::binary);
+    std::string bytes(std::istreambuf_iterator<char>(in), {});
+    // Eight bytes in front of a filter's name lies its number.
+    const std::size_t number = bytes.find("shuffle") - 8;
+    ASSERT_EQ(bytes.substr(number, 2), std::string("\x02\x00", 2));
+    bytes.replace(number, 2, "\x0f\x7d");
+    std::ofstream(path_, std::ios::binary) << bytes;
+    H5PLprepend(MENISCUS_PLUGIN_FOLDER);
+    EXPECT_NE(said().find("compressed by what this build of HDF5 does not know"), std::string::npos) << said();
+    EXPECT_EQ(std::getenv("MENISCUS_PLUGIN_WAS_LOADED"), nullptr);
+    unsigned loads = 0;
+    H5PLget_loading_state(&loads);
+    EXPECT_NE(loads, 0U) << "a program's own use of HDF5 is left as it was";
 }
 
 TEST_F(Hdf5, AChunkIsHeldAgainstTheLimitHoweverLittleOfItIsThere) {

@@ -284,6 +284,22 @@ TEST(OrphanedRegistry, ForgetsASessionWhoseSimulatorVanishedUnlessItIsWatchedOrR
     EXPECT_FALSE(ended->ended()) << "that one said goodbye";
 }
 
+TEST(OrphanedRegistry, ForgetsASessionThatIsOnlyAskedAbout) {
+    using Clock = std::chrono::steady_clock;
+    constexpr auto limit = std::chrono::minutes(2);
+    SessionRegistry registry{Limits{.idle_time = 10 * limit, .orphan_time = limit},
+                             BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
+    const auto session = registry.create(first_id, test::settings()).session;
+    session->cancel_upload(session->open_upload(
+                               {.run_id = 7}, [] {}, [] {}),
+                           UploadEnd::vanished);
+    while (!session->unused(Clock::now() + 2 * limit)) std::this_thread::yield();
+    const auto vanished = Clock::now();
+    // A call that counts as use from then on.
+    while (Clock::now() < vanished + std::chrono::milliseconds(20)) registry.find(first_id);
+    while (!session->ended()) registry.end_idle(vanished + limit);
+}
+
 TEST(OrphanedRegistry, ForgetsASessionWhoseBrokenStreamLookedFirstAsIfItHadEnded) {
     using Clock = std::chrono::steady_clock;
     constexpr auto limit = std::chrono::minutes(2);
