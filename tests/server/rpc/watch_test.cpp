@@ -88,10 +88,11 @@ Particles half_still(double phase) {
     return particles;
 }
 
-TEST(Watch, ReceivesOnlyWhatChangedAndHasTheWholeMeshOfEveryFrame) {
-    RunningServer running;
+/// The watcher waits a little after each frame, so that it may miss some.
+void watch_what_changes(RunningServer& running, Codec codec) {
+    SCOPED_TRACE(name_of(codec));
     const std::string id = running.session();
-    auto watcher = running.client.watch(id);
+    auto watcher = running.client.watch(id, {.codec = codec});
     auto stream = running.client.stream(id, {.receive_meshes = false});
     constexpr std::uint64_t last = 40;
     std::thread simulator([&] {
@@ -106,6 +107,7 @@ TEST(Watch, ReceivesOnlyWhatChangedAndHasTheWholeMeshOfEveryFrame) {
     for (bool first = true;; first = false) {
         const auto frame = watcher.next();
         ASSERT_TRUE(frame);
+        for (const auto& brick : frame->bricks) EXPECT_EQ(brick->codec, codec);
         EXPECT_EQ(mesh_sha256(frame->mesh()), local_sha256(half_still(0.2 * static_cast<double>(frame->index))));
         if (!first) {
             for (const auto& place : frame->changed) EXPECT_LT(place[0], 2);
@@ -118,6 +120,11 @@ TEST(Watch, ReceivesOnlyWhatChangedAndHasTheWholeMeshOfEveryFrame) {
     EXPECT_GT(unchanged, 0U);
     std::printf("%zu of %zu bricks were not sent again\n", unchanged, bricks);
     simulator.join();
+}
+
+TEST(Watch, ReceivesOnlyWhatChangedAndHasTheWholeMeshOfEveryFrame) {
+    RunningServer running;
+    for (const Codec codec : codecs) watch_what_changes(running, codec);
 }
 
 TEST(Watch, EndsWithItsSession) {
