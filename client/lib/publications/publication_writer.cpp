@@ -1,11 +1,6 @@
 #include "meniscus/client/publication_writer.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <deque>
 #include <string>
@@ -15,6 +10,7 @@
 #include "files/publication_format.hpp"
 #include "meniscus/error.hpp"
 #include "publications/durable_file.hpp"
+#include "publications/folder_lock.hpp"
 #include "publications/manifest.hpp"
 #include "publications/segment.hpp"
 
@@ -25,25 +21,6 @@ using Clock = std::chrono::steady_clock;
 
 /// A segment's file stays so long after the manifest has dropped it: readers may have the manifest of before.
 constexpr std::chrono::seconds readers_delay{30};
-
-/// Holds a folder against other writers, until it is destroyed or the process ends.
-class FolderLock {
-public:
-    explicit FolderLock(const std::filesystem::path& folder)
-        : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-        if (descriptor_ < 0)
-            throw InvalidInput(folder.string() + ": cannot be opened: " + std::generic_category().message(errno));
-        if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-        ::close(descriptor_);
-        throw InvalidInput(folder.string() + ": another process publishes there: wait for it, or take another folder");
-    }
-    ~FolderLock() { ::close(descriptor_); }
-    FolderLock(const FolderLock&) = delete;
-    FolderLock& operator=(const FolderLock&) = delete;
-
-private:
-    int descriptor_;
-};
 
 std::filesystem::path made(std::filesystem::path folder) {
     std::error_code error;
