@@ -1,11 +1,15 @@
 // meniscus publish: a surface as plain files, which any web host carries.
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <filesystem>
+#include <iostream>
 #include <limits>
 #include <memory>
+#include <system_error>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/examples.hpp"
+#include "cli/commands/publication_pages.hpp"
 #include "cli/commands/publish_sources.hpp"
 #include "cli/options/named_option.hpp"
 #include "cli/options/number_range.hpp"
@@ -14,19 +18,61 @@
 #include "cli/options/seconds_option.hpp"
 #include "cli/options/session_flags.hpp"
 #include "cli/sequence/recording_files.hpp"
+#include "cli/surfaces/mesh_output.hpp"
 #include "cli/surfaces/surfaces.hpp"
+#include "files/publication_format.hpp"
 #include "formats/bytes/extension.hpp"
 #include "formats/meshes/mesh_formats.hpp"
+#include "meniscus/client/publication.hpp"
+#include "meniscus/error.hpp"
 
 namespace meniscus::cli {
 namespace {
 
-void publish(const PublishCommand& command) {
+/// Browsers open larger pages, and take long for it.
+constexpr std::uintmax_t most_page_bytes = 50'000'000;
+
+void publish_source(const PublishCommand& command) {
     if (!command.server.address.empty()) return publish_session(command);
+    if (client::is_publication(command.source))
+        throw InvalidInput(command.source + " is a publication already: copy its folder");
     if (is_recording(command.source)) return publish_recording(command);
     if (formats::lower_extension(command.source) == row_of(formats::MeshFormat::bricks).extension)
         return publish_bricks(command);
     publish_particles(command);
+}
+
+/// Its files alone: the folder has another use where something else is in it.
+void remove_publication(const std::filesystem::path& folder) {
+    const client::PublicationInfo info = client::Publication(folder).info();
+    std::error_code ignored;
+    std::filesystem::remove(folder / files::manifest_name, ignored);
+    for (const client::PublishedSegment& segment : info.segments)
+        std::filesystem::remove(folder / segment.file(), ignored);
+    std::filesystem::remove(folder, ignored);
+}
+
+void publish(PublishCommand command) {
+    command.folder = command.to;
+    if (!command.single_file) {
+        if (command.page) write_site(command.folder);
+        return publish_source(command);
+    }
+    require_viewer();
+    if (!command.server.address.empty())
+        throw InvalidInput(
+            "--single-file is of frames that are all there, and a session goes on: publish it to a folder");
+    check_folder(command.to);
+    // Where a run that was killed goes on.
+    command.folder += ".parts";
+    publish_source(command);
+    write_single_page(command.folder, command.to);
+    remove_publication(command.folder);
+    const std::uintmax_t bytes = std::filesystem::file_size(command.to);
+    if (!command.verbosity.quiet) std::cerr << command.to.string() << ": " << bytes << " bytes\n";
+    if (bytes > most_page_bytes)
+        std::cerr << command.to.string() << ": browsers take long to open a page of more than " << most_page_bytes
+                  << " bytes; --normals-by receiver, --position-bits or --every make it smaller\n";
 }
 
 void add_files(CLI::App& app, PublishCommand& command) {
@@ -37,9 +83,14 @@ void add_files(CLI::App& app, PublishCommand& command) {
                            ", .bricks, or a sequence of those with {}; a recording, or a session's folder if it holds "
                            "one only; with --server a session, by its id or its name")
             ->required();
-        app.add_option("--to", command.folder,
-                       "Folder of the publication; one that is there goes on, also after a run that was killed")
+        app.add_option("--to", command.to,
+                       "Folder of the publication; one that is there goes on, also after a run that was killed. With "
+                       "--single-file the page")
             ->required();
+        auto* const page = app.add_flag("--page", command.page, "Put the viewer beside it: the folder is a web site");
+        app.add_flag("--single-file", command.single_file,
+                     "One page with the viewer and all frames, which opens without a server and without a network")
+            ->excludes(page);
         add_named_option(app, "--input-format", command.input_format,
                          "Format of the particles, whatever their extension");
     }
@@ -93,7 +144,8 @@ void add_publish(CLI::App& app) {
             ->default_str("30");
     }
     options->verbosity.add_quiet_to(command);
-    add_examples(command, {"meniscus publish 'frame_{}.vtk' --to site -r 0.025",
+    add_examples(command, {"meniscus publish 'frame_{}.vtk' --to site -r 0.025 --page",
+                           "meniscus publish 'frame_{}.vtk' --to water.html -r 0.025 --single-file",
                            "meniscus publish recordings/SESSION --to site --normals-by receiver",
                            "meniscus publish SESSION --server localhost --to /var/www/water --keep 600"});
     command.callback([options] { publish(*options); });

@@ -21,7 +21,10 @@ namespace meniscus::cli {
 /// What `meniscus publish` was told.
 struct PublishCommand {
     std::string source;
-    std::filesystem::path folder;
+    std::filesystem::path to;               ///< as given: a folder, or the page with single_file
+    std::filesystem::path folder;           ///< of the publication
+    bool page = false;                      ///< the folder gets the viewer, too
+    bool single_file = false;               ///< `to` is one page with everything
     std::optional<double> particle_radius;  ///< of particle files
     std::optional<formats::ParticleFormat> input_format;
     formats::ReadLimits limits;

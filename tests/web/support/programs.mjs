@@ -92,3 +92,15 @@ export function startUploader(server, args, session = randomUUID()) {
     },
   };
 }
+
+/** Publishes a session to a folder. Resolves once the manifest is there. */
+export async function startPublisher(server, session, folder) {
+  const child = start(meniscus, ['publish', session, '--server', server.address, '--to', folder]);
+  await printed(child, /publishing/);
+  return {
+    kill: async () => {
+      child.kill('SIGKILL');
+      await child.ended;
+    },
+  };
+}
