@@ -9,7 +9,6 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/examples.hpp"
-#include "cli/commands/publication_pages.hpp"
 #include "cli/commands/publish_sources.hpp"
 #include "cli/options/named_option.hpp"
 #include "cli/options/number_range.hpp"
@@ -25,6 +24,7 @@
 #include "formats/meshes/mesh_formats.hpp"
 #include "meniscus/client/publication.hpp"
 #include "meniscus/error.hpp"
+#include "pages/publication_pages.hpp"
 
 namespace meniscus::cli {
 namespace {
@@ -55,10 +55,10 @@ void remove_publication(const std::filesystem::path& folder) {
 void publish(PublishCommand command) {
     command.folder = command.to;
     if (!command.single_file) {
-        if (command.page) write_site(command.folder);
+        if (command.page) pages::write_site(command.folder);
         return publish_source(command);
     }
-    require_viewer();
+    pages::require_viewer();
     if (!command.server.address.empty())
         throw InvalidInput(
             "--single-file is of frames that are all there, and a session goes on: publish it to a folder");
@@ -66,7 +66,7 @@ void publish(PublishCommand command) {
     // Where a run that was killed goes on.
     command.folder += ".parts";
     publish_source(command);
-    write_single_page(command.folder, command.to);
+    pages::write_single_page(command.folder, command.to);
     remove_publication(command.folder);
     const std::uintmax_t bytes = std::filesystem::file_size(command.to);
     if (!command.verbosity.quiet) std::cerr << command.to.string() << ": " << bytes << " bytes\n";

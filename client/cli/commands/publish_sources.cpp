@@ -1,6 +1,7 @@
 #include "cli/commands/publish_sources.hpp"
 
 #include <iostream>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -35,8 +36,8 @@ client::PublishOptions options_of(const PublishCommand& command, const client::S
 /// A writer of frames that are all there already, and what is said of them.
 class Publisher {
 public:
-    Publisher(const PublishCommand& command, const Settings& settings, const client::SessionDescription& described,
-              std::size_t frames)
+    Publisher(const PublishCommand& command, const std::optional<Settings>& settings,
+              const client::SessionDescription& described, std::size_t frames)
         : command_(command),
           writer_(command.folder, settings, options_of(command, described)),
           bar_(frames, frames > 1 && !command.verbosity.quiet) {}
@@ -165,7 +166,7 @@ void publish_bricks(const PublishCommand& command) {
                            " has bricks, which are published as they are: leave out the flags of their form");
     const std::vector<NumberedFile> files = files_of(command);
     // A file of bricks does not name its settings.
-    Publisher publisher(command, Settings{}, {}, files.size());
+    Publisher publisher(command, std::nullopt, {}, files.size());
     for (const auto& [number, path] : files) {
         if (publisher.has(number)) continue;
         client::ReceivedFrame frame =

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -46,13 +47,14 @@ bool is_segment_file(const std::filesystem::path& path) {
 
 class PublicationWriter::Impl {
 public:
-    Impl(std::filesystem::path folder, const Settings& settings, const PublishOptions& options)
+    Impl(std::filesystem::path folder, const std::optional<Settings>& settings, const PublishOptions& options)
         : folder_(made(std::move(folder))), lock_(folder_), options_(options) {
         // As they are read back.
+        const std::optional<Settings> spelled_out = settings ? std::optional(in_force(*settings)) : std::nullopt;
         if (is_publication(folder_))
-            go_on(in_force(settings));
+            go_on(spelled_out);
         else
-            begin(in_force(settings));
+            begin(spelled_out);
         write_manifest();
         remove_strangers();
     }
@@ -93,14 +95,14 @@ public:
     }
 
 private:
-    void begin(const Settings& settings) {
+    void begin(const std::optional<Settings>& settings) {
         info_.settings = settings;
         info_.description = options_.description;
         info_.normals_by = options_.normals_by;
         info_.live = options_.live;
     }
 
-    void go_on(const Settings& settings) {
+    void go_on(const std::optional<Settings>& settings) {
         info_ = Publication(folder_).info();
         if (info_.settings != settings)
             throw InvalidInput(folder_.string() +
@@ -178,7 +180,7 @@ private:
     std::deque<Dropped> dropped_;
 };
 
-PublicationWriter::PublicationWriter(std::filesystem::path folder, const Settings& settings,
+PublicationWriter::PublicationWriter(std::filesystem::path folder, const std::optional<Settings>& settings,
                                      const PublishOptions& options)
     : impl_(std::make_unique<Impl>(std::move(folder), settings, options)) {}
 PublicationWriter::~PublicationWriter() = default;

@@ -482,8 +482,8 @@ export class App {
   }
 
   private writeAddress(): void {
-    // The state that a page hands over stays out of the address.
-    if (this.embedding || !this.screen.shown || !this.looking) return;
+    // The state that a page hands over stays out of the address; a page within a notebook has none.
+    if (this.embedding || location.protocol === 'about:' || !this.screen.shown || !this.looking) return;
     history.replaceState(
       null,
       '',

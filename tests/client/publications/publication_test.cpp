@@ -174,6 +174,19 @@ TEST(Publication, RefusesAWriterWithOtherSettingsAndASecondOne) {
               std::string::npos);
 }
 
+TEST(Publication, GoesOnWhereSettingsAreNotKnown) {
+    const TemporaryDirectory folder;
+    Row row;
+    for (std::uint64_t i = 0; i < 2; ++i) {
+        PublicationWriter writer(folder.path(), std::nullopt, {});
+        writer.add(row.frame(i), frame_seconds);
+        writer.finish();
+    }
+    const client::PublicationInfo info = Publication(folder.path()).info();
+    EXPECT_FALSE(info.settings);
+    EXPECT_EQ(info.frames, 2U);
+}
+
 TEST(Publication, KeepsTheNewestSecondsAndTheirPlaces) {
     const TemporaryDirectory folder;
     Row row;

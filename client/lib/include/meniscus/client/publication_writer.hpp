@@ -26,9 +26,11 @@ struct PublishOptions {
 /// named in the manifest. One writer has a folder at a time.
 class PublicationWriter {
 public:
-    /// Goes on with the publication that is there. Throws InvalidInput if that has other settings, if another process
-    /// publishes there, or if the folder cannot be made.
-    PublicationWriter(std::filesystem::path folder, const Settings& settings, const PublishOptions& options);
+    /// Goes on with the publication that is there. settings: of the surface; none: they are not known. Throws
+    /// InvalidInput if those that are there are other ones, if another process publishes there, or if the folder cannot
+    /// be made.
+    PublicationWriter(std::filesystem::path folder, const std::optional<Settings>& settings,
+                      const PublishOptions& options);
     /// Leaves the frames that no segment has yet out.
     ~PublicationWriter();
     PublicationWriter(const PublicationWriter&) = delete;

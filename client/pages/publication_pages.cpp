@@ -1,4 +1,4 @@
-#include "cli/commands/publication_pages.hpp"
+#include "pages/publication_pages.hpp"
 
 #include <cstdint>
 #include <span>
@@ -15,7 +15,7 @@
 #include "meniscus/error.hpp"
 #include "viewer_files.hpp"
 
-namespace meniscus::cli {
+namespace meniscus::pages {
 namespace {
 
 /// More than any file of the viewer has.
@@ -59,13 +59,18 @@ void write_site(const std::filesystem::path& publication) {
     }
 }
 
-void write_single_page(const std::filesystem::path& publication, const std::filesystem::path& page) {
+SinglePage single_page() {
     require_viewer();
-    const client::PublicationInfo info = client::Publication(publication).info();
-    const std::string text = inflated("the viewer's page", viewer::single_page());
+    std::string text = inflated("the viewer's page", viewer::single_page());
     const std::size_t end = last_place(text, "</body>");
+    return {.before = text.substr(0, end), .behind = text.substr(end)};
+}
+
+void write_single_page(const std::filesystem::path& publication, const std::filesystem::path& page) {
+    const SinglePage around = single_page();
+    const client::PublicationInfo info = client::Publication(publication).info();
     formats::AtomicFile file(page);
-    file.write(std::string_view(text).substr(0, end));
+    file.write(around.before);
     const auto add = [&](const std::string& name, std::uint64_t most) {
         file.write("<script type=\"text/plain\" data-file=\"" + name + "\">");
         formats::Base64Writer data(file);
@@ -75,8 +80,8 @@ void write_single_page(const std::filesystem::path& publication, const std::file
     };
     add(std::string(files::manifest_name), files::max_manifest_bytes);
     for (const client::PublishedSegment& segment : info.segments) add(segment.file(), segment.bytes);
-    file.write(std::string_view(text).substr(end));
+    file.write(around.behind);
     file.commit();
 }
 
-}  // namespace meniscus::cli
+}  // namespace meniscus::pages
