@@ -1,6 +1,7 @@
 // The frames of a session to files, while they come.
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <future>
 #include <iostream>
 #include <optional>
@@ -57,13 +58,16 @@ private:
     }
 
     void take(const client::ReceivedFrame& frame) {
-        if (!command_.is_wanted(frame.index) || writer_.has(frame.run_id, frame.index)) return;
+        if (!command_.is_wanted(frame.index)) return;
+        // The watcher begins with the newest frame, which a publisher before may have had.
+        if (!goes_on_ && writer_.has(frame.run_id, frame.index)) return;
+        goes_on_ = true;
         const Clock::time_point now = Clock::now();
         if (!writer_.is_open()) opened_at_ = now;
         // A pause of the simulator is not one of the viewers.
         const double since = last_ ? seconds_between(*last_, now) : files::published_frame_seconds;
         last_ = now;
-        writer_.add(frame, std::min(since, seconds_between({}, Clock::time_point{} + longest_segment)));
+        writer_.add(frame, std::min(since, std::chrono::duration<double>(longest_segment).count()));
     }
 
     const PublishCommand& command_;
@@ -71,6 +75,7 @@ private:
     client::PublicationWriter& writer_;
     Clock::time_point opened_at_{};
     std::optional<Clock::time_point> last_;
+    bool goes_on_ = false;  ///< a frame has come that was not there
 };
 
 }  // namespace
@@ -88,11 +93,8 @@ void publish_session(const PublishCommand& command) {
     if (!request.codec) request.codec = Codec::lattice_entropy;
     request.spray = true;
 
-    client::PublishOptions options{.description = session.description,
-                                   .normals_by = request.normals_by,
-                                   .live = true,
-                                   .keep_seconds = command.keep};
-    if (!command.description.name.empty()) options.description.name = command.description.name;
+    client::PublishOptions options = publish_options(command, session.description);
+    options.live = true;
     client::PublicationWriter writer(command.folder, session.settings, options);
     client::Watcher watcher = client.watch(id, request);
     std::promise<void> done;
@@ -106,6 +108,12 @@ void publish_session(const PublishCommand& command) {
         LivePublisher(command, watcher, writer).run();
         writer.finish();
     } catch (...) {
+        // The frames that have come are there for a run that goes on.
+        try {
+            writer.flush();
+        } catch (const std::exception&) {
+            // The first error is the one to report.
+        }
         done.set_value();
         throw;
     }

@@ -23,23 +23,13 @@
 namespace meniscus::cli {
 namespace {
 
-client::PublishOptions options_of(const PublishCommand& command, const client::SessionDescription& described) {
-    client::PublishOptions options{.description = command.description,
-                                   .normals_by = command.form.options.normals_by,
-                                   .keep_seconds = command.keep};
-    if (options.description.name.empty()) options.description.name = described.name;
-    if (options.description.length_unit.empty()) options.description.length_unit = described.length_unit;
-    if (options.description.up_axis == client::UpAxis::unspecified) options.description.up_axis = described.up_axis;
-    return options;
-}
-
 /// A writer of frames that are all there already, and what is said of them.
 class Publisher {
 public:
     Publisher(const PublishCommand& command, const std::optional<Settings>& settings,
               const client::SessionDescription& described, std::size_t frames)
         : command_(command),
-          writer_(command.folder, settings, options_of(command, described)),
+          writer_(command.folder, settings, publish_options(command, described)),
           bar_(frames, frames > 1 && !command.verbosity.quiet) {}
 
     bool has(std::uint64_t index) {
@@ -130,6 +120,16 @@ bool is_form_given(const WatchFlags& form) {
 }
 
 }  // namespace
+
+client::PublishOptions publish_options(const PublishCommand& command, const client::SessionDescription& described) {
+    client::PublishOptions options{.description = command.description,
+                                   .normals_by = command.form.options.normals_by,
+                                   .keep_seconds = command.keep};
+    if (options.description.name.empty()) options.description.name = described.name;
+    if (options.description.length_unit.empty()) options.description.length_unit = described.length_unit;
+    if (options.description.up_axis == client::UpAxis::unspecified) options.description.up_axis = described.up_axis;
+    return options;
+}
 
 void publish_particles(const PublishCommand& command) {
     if (!command.particle_radius)

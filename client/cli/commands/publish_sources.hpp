@@ -14,6 +14,7 @@
 #include "formats/bytes/read_limits.hpp"
 #include "formats/particles/particle_formats.hpp"
 #include "meniscus/backend_options.hpp"
+#include "meniscus/client/publication_writer.hpp"
 #include "meniscus/client/session_info.hpp"
 
 namespace meniscus::cli {
@@ -41,6 +42,9 @@ struct PublishCommand {
 
     bool is_wanted(std::uint64_t number) const { return number % every == 0 && selection.is_in_range(number); }
 };
+
+/// described: what the source says of itself, where the command says nothing.
+client::PublishOptions publish_options(const PublishCommand& command, const client::SessionDescription& described);
 
 /// These publish all frames of the source that are wanted and not yet there. They throw InvalidInput, LimitExceeded,
 /// ServerError, or std::runtime_error where writing fails; what was published until then stays.
