@@ -121,7 +121,7 @@ void add_publish(CLI::App& app) {
         command.add_option("-r,--particle-radius", options->particle_radius, "World units; needed for particles");
     }
     options->settings.add_to(command);
-    options->form.add_form_to(command, mesh_heading, "entropy", "those of a session or a recording; none of particles");
+    options->form.add_form_to(command, mesh_heading, "entropy", "");
     {
         const OptionGroup group(command, place_heading);
         add_backend_option(command, options->backend.backend);

@@ -2,6 +2,7 @@
 
 #include <iostream>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -106,6 +107,13 @@ private:
     Mesh mesh_;
 };
 
+/// Of particle files: --attribute names arrays.
+Settings settings_of(const PublishCommand& command) {
+    SettingsOptions options = command.settings;
+    if (command.form.attributes != std::vector<std::string>{"none"}) options.set_attributes(command.form.attributes);
+    return options.build(*command.particle_radius);
+}
+
 /// Refuses flags of particles where frames have their surface.
 void require_no_settings(const PublishCommand& command, const std::string& what) {
     if (command.particle_radius || command.settings.any_given())
@@ -135,12 +143,12 @@ void publish_particles(const PublishCommand& command) {
     if (!command.particle_radius)
         throw InvalidInput("--particle-radius is needed: " + quoted(command.source) + " is taken for particles");
     const std::vector<NumberedFile> files = files_of(command);
-    SettingsOptions options = command.settings;
-    options.set_attributes(command.form.attributes);
-    const Settings settings = options.build(*command.particle_radius);
+    const Settings settings = settings_of(command);
     check_normals_by(command.form.options.normals_by, command.form.normal_bits, false);
     Publisher publisher(command, settings, {}, files.size());
-    Encoder encoder(command, settings);
+    PublishCommand with_all = command;  // of the attributes that the settings name
+    with_all.form.attributes.clear();
+    Encoder encoder(with_all, settings);
     ParticleInputOptions how;
     how.format = command.input_format;
     how.limits = command.limits;

@@ -51,8 +51,7 @@ void WatchFlags::add_form_to(CLI::App& command, const std::string& heading, cons
     add_normal_bits(command, normal_bits, "")->default_str(std::to_string(options.normal_bits));
     add_normals_by(command, options.normals_by);
     command
-        .add_option("--attribute", attributes,
-                    "Attribute of the session that the meshes carry, once for each; all, or none of them")
+        .add_option("--attribute", attributes, "Attribute that the meshes carry, once for each; all, or none of them")
         ->type_name("NAME")
         ->allow_extra_args(false)
         ->default_str(attributes_otherwise);
