@@ -83,7 +83,7 @@ describe('a publication', () => {
   it('takes any damage for what it is', async () => {
     const rounds = Number(process.env.MENISCUS_FUZZ_ROUNDS ?? 1500);
     const files = golden();
-    let state = 1;
+    let state = Number(process.env.MENISCUS_FUZZ_SEED ?? 1);
     const random = (below: number): number => {
       state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
       return Math.floor((state / 2 ** 32) * below);
