@@ -1,4 +1,5 @@
-// Writes a folder's files as C++: node embed.mjs FOLDER FILE.cpp. Each is compressed once, here.
+// Writes a folder's files, and the page that is all of them, as C++: node embed.mjs FOLDER PAGE.html FILE.cpp. Each is compressed
+// once, here.
 import { readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { extname, join } from 'node:path';
 import { gzipSync } from 'node:zlib';
@@ -11,7 +12,7 @@ const types = {
   '.svg': 'image/svg+xml',
 };
 
-const [folder, output] = process.argv.slice(2);
+const [folder, single, output] = process.argv.slice(2);
 const paths = readdirSync(folder, { recursive: true })
   .filter((path) => statSync(join(folder, path)).isFile())
   .sort();
@@ -30,10 +31,12 @@ paths.forEach((path, i) => {
   if (/worker|decoder/.test(path)) decoderBytes += gzip.length;
   else if (extname(path) === '.js') scriptBytes += gzip.length;
 });
+const singlePage = gzipSync(readFileSync(single), { level: 9 });
+arrays += `constexpr unsigned char single[] = {${singlePage.join(',')}};\n`;
 writeFileSync(
   output,
   `#include "viewer_files.hpp"\n\nnamespace meniscus::viewer {\n\nnamespace {\n\n${arrays}\nconstexpr File all[] = {\n${table}};\n\n}  // namespace\n\n` +
-    'std::span<const File> files() {\n    return all;\n}\n\n}  // namespace meniscus::viewer\n',
+    'std::span<const File> files() {\n    return all;\n}\n\nstd::span<const unsigned char> single_page() {\n    return single;\n}\n\n}  // namespace meniscus::viewer\n',
 );
 const kilobytes = (bytes) => `${(bytes / 1000).toFixed(0)} kB`;
 console.log(`viewer: ${kilobytes(scriptBytes)} of script compressed, decoder ${kilobytes(decoderBytes)} apart`);

@@ -22,4 +22,8 @@ std::span<const File> files() {
     return all;
 }
 
+std::span<const unsigned char> single_page() {
+    return {};
+}
+
 }  // namespace meniscus::viewer

@@ -1,4 +1,4 @@
-// The viewer's files, embedded in the program that serves them.
+// The viewer's files, embedded in the programs that serve or write them.
 #pragma once
 
 #include <span>
@@ -16,5 +16,13 @@ struct File {
 
 /// Where the viewer was not built: one page that says so.
 std::span<const File> files();
+
+/// The viewer as one page, as gzip: single_page.mjs says what is written into it. Empty where the viewer was not built.
+std::span<const unsigned char> single_page();
+
+/// What the viewer's page may load: files of its own, some of which are WebAssembly.
+inline constexpr std::string_view content_policy =
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self'; "
+    "connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; ";
 
 }  // namespace meniscus::viewer

@@ -18,11 +18,6 @@ namespace meniscus::server {
 
 namespace {
 
-/// The viewer is of files of its own, some of which are WebAssembly.
-constexpr std::string_view policy =
-    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self'; "
-    "connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; ";
-
 std::string inflated(std::span<const unsigned char> gzip) {
     z_stream stream{};
     constexpr int gzip_window = 15 + 16;
@@ -89,7 +84,7 @@ private:
 }  // namespace
 
 void add_viewer_pages(Router& router, const FrameAncestors& ancestors) {
-    const std::string page_policy = std::string(policy) + ancestors.directive();
+    const std::string page_policy = std::string(viewer::content_policy) + ancestors.directive();
     for (const viewer::File& file : viewer::files())
         router.add_for_browsers(std::string(file.path),
                                 [page = std::make_shared<ViewerPage>(file, page_policy)](const PageRequest& request) {

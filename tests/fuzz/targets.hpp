@@ -99,6 +99,13 @@ Seeds brick_file_seeds();
 void recording(Bytes bytes);
 Seeds recording_seeds();
 
+/// A publication's manifest.
+void publication_manifest(Bytes bytes);
+Seeds publication_manifest_seeds();
+/// Frames, index of the first and of the last (1 byte each), and a segment of which the manifest says these.
+void publication_segment(Bytes bytes);
+Seeds publication_segment_seeds();
+
 struct Target {
     const char* name;
     void (*run)(Bytes);

@@ -4,6 +4,7 @@ import './frames.mjs';
 import './recovery.mjs';
 import './playback.mjs';
 import './recordings.mjs';
+import './publications.mjs';
 import './camera.mjs';
 import './water.mjs';
 import './tools.mjs';

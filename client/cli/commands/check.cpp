@@ -12,6 +12,7 @@
 #include "cli/options/option_group.hpp"
 #include "cli/options/read_limits_option.hpp"
 #include "cli/options/verbosity.hpp"
+#include "cli/sequence/frame_meshes.hpp"
 #include "cli/surfaces/mesh_check.hpp"
 #include "cli/surfaces/mesh_output.hpp"
 #include "formats/bytes/standard_streams.hpp"
@@ -24,21 +25,31 @@ namespace {
 struct CheckOptions {
     std::vector<std::string> meshes;
     std::optional<MeshFormat> input_format;
+    std::optional<std::uint64_t> frame;
     formats::ReadLimits limits;
     Verbosity verbosity;
 };
 
 void check(const CheckOptions& options) {
     for (const std::string& path : options.meshes)
-        check_named(path, options.input_format.has_value(), "--input-format", formats::read_mesh_formats());
+        if (!has_frames(path))
+            check_named(path, options.input_format.has_value(), "--input-format", formats::read_mesh_formats());
     MeshCheck check;
-    for (const std::string& path : options.meshes) {
-        const formats::TriangleMesh mesh = formats::read_mesh(path, options.input_format, options.limits);
+    const auto look_at = [&](const std::string& name, const formats::TriangleMesh& mesh) {
         const compare::Defects defects = defects_of(mesh);
-        check.say(formats::input_name(path), defects);
-        if (options.verbosity.quiet) continue;
-        std::cout << visible(formats::input_name(path)) << ": " << mesh.triangles.size() << " triangles, "
+        check.say(name, defects);
+        if (options.verbosity.quiet) return;
+        std::cout << visible(name) << ": " << mesh.triangles.size() << " triangles, "
                   << (defects.closed() ? "closed, manifold and consistently oriented" : defects.text()) << '\n';
+    };
+    for (const std::string& path : options.meshes) {
+        if (has_frames(path))
+            for_each_frame(path, options.frame ? FrameRange{*options.frame, *options.frame} : FrameRange{},
+                           [&](const std::string& name, const client::ReceivedFrame& frame) {
+                               look_at(name, formats::to_triangles(frame.mesh()));
+                           });
+        else
+            look_at(formats::input_name(path), formats::read_mesh(path, options.input_format, options.limits));
     }
     check.finish();
 }
@@ -53,10 +64,12 @@ void add_check(CLI::App& app) {
         const OptionGroup group(command, files_heading);
         command
             .add_option("MESH", options->meshes,
-                        "Mesh: " + listed(formats::read_mesh_formats()) + "; - for standard input")
+                        "Mesh: " + listed(formats::read_mesh_formats()) +
+                            "; - for standard input; a recording or a publication, of which every frame is looked at")
             ->required();
         add_named_option(command, "--input-format", options->input_format,
                          "Format of all of them, whatever their extensions; - needs it");
+        add_frame_option(command, options->frame, "all");
     }
     add_read_limits(command, options->limits);
     options->verbosity.add_quiet_to(command);

@@ -100,6 +100,7 @@ int run(int argc, const char* const* argv) {
     add_recordings(app);
     add_replay(app);
     add_convert(app);
+    add_publish(app);
     add_completion(app);
     add_help(app);
     for (CLI::App* command : app.get_subcommands({})) move_help_last(*command);

@@ -19,6 +19,7 @@ void add_top(CLI::App& app);
 void add_recordings(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_convert(CLI::App& app);
+void add_publish(CLI::App& app);
 void add_completion(CLI::App& app);
 /// Knows the commands that have been added before.
 void add_help(CLI::App& app);

@@ -7,6 +7,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/convert_files.hpp"
+#include "cli/commands/convert_publication.hpp"
 #include "cli/commands/examples.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/read_limits_option.hpp"
@@ -20,6 +21,7 @@
 #include "formats/bytes/extension.hpp"
 #include "formats/bytes/standard_streams.hpp"
 #include "formats/particles/particle_file.hpp"
+#include "meniscus/client/publication.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/names.hpp"
 
@@ -111,7 +113,7 @@ void require_folder(const std::string& recording, const std::string& out) {
     const std::string format = extension.empty() ? extension : extension.substr(1);
     const bool sequence = FilePattern(out).has_number();
     if (!sequence && (!find_by_name<MeshFormat>(format) || std::filesystem::is_directory(out, error))) return;
-    throw InvalidInput(recording + " is a recording: OUT is a folder, in which each frame gets its file, not '" + out +
+    throw InvalidInput(recording + " has many frames: OUT is a folder, in which each frame gets its file, not '" + out +
                        "'; say -o FOLDER" + (find_by_name<MeshFormat>(format) ? " --format " + format : ""));
 }
 
@@ -138,7 +140,24 @@ ConvertOptions recording_options(const ConvertFlags& flags) {
     return options;
 }
 
+PublicationConversion publication_options(const ConvertFlags& flags) {
+    require_folder(flags.files.in, flags.files.out);
+    if (flags.particles) throw InvalidInput(flags.files.in + " is a publication, which has meshes and no particles");
+    if (flags.files.selection.is_given() || flags.files.input_format)
+        throw InvalidInput(flags.files.in +
+                           " is a publication: its frames are chosen by --from and --to, and it has one format");
+    PublicationConversion conversion{.publication = flags.files.in,
+                                     .out = flags.files.out,
+                                     .range = {flags.recording.from, flags.recording.to},
+                                     .quiet = flags.files.verbosity.quiet};
+    if (flags.files.format) conversion.format = *find_by_name<MeshFormat>(*flags.files.format);
+    conversion.edits.without_levels = flags.files.without_levels;
+    conversion.edits.require(conversion.format);
+    return conversion;
+}
+
 void convert(const ConvertFlags& flags) {
+    if (client::is_publication(flags.files.in)) return convert_publication(publication_options(flags));
     if (is_recording(flags.files.in)) return convert_recording(recording_options(flags));
     if (flags.recording.is_range_given())
         throw InvalidInput(flags.files.in + " is no recording: frames of a sequence are chosen by --start and --end");
@@ -165,17 +184,20 @@ void add_convert(CLI::App& app) {
     auto flags = std::make_shared<ConvertFlags>();
     FileConversion& files = flags->files;
     CLI::App& command = *app.add_subcommand(
-        "convert", "Write frames of a recording as files of their own, or particle and mesh files in other formats");
+        "convert",
+        "Write frames of a recording or a publication as files of their own, or particle and mesh files in other "
+        "formats");
     {
         const OptionGroup group(command, files_heading);
         command
-            .add_option("IN", files.in,
-                        "A recording, or a session's folder if it holds one only; particles or a mesh; a sequence of "
-                        "those with {}; - for standard input")
+            .add_option(
+                "IN", files.in,
+                "A recording, or a session's folder if it holds one only; a publication's folder; particles or a "
+                "mesh; a sequence of those with {}; - for standard input")
             ->required();
         command
             .add_option("-o,--output", files.out,
-                        "File, with {} for a sequence; of a recording a folder; - for standard output")
+                        "File, with {} for a sequence; of a recording or a publication a folder; - for standard output")
             ->required();
         command
             .add_option("--format", files.format,
@@ -196,7 +218,8 @@ void add_convert(CLI::App& app) {
     add_examples(command,
                  {"meniscus convert recordings/SESSION/000001.recording -o meshes",
                   "meniscus convert recordings/SESSION --from 20 --to 39 -o particles --format vtk",
-                  "meniscus convert 'frame_{}.vtk' -o 'frame_{}.npz'", "meniscus convert surface.ply -o surface.obj"});
+                  "meniscus convert site -o meshes --format obj", "meniscus convert 'frame_{}.vtk' -o 'frame_{}.npz'",
+                  "meniscus convert surface.ply -o surface.obj"});
     command.callback([flags] { convert(*flags); });
 }
 

@@ -11,6 +11,7 @@
 #include "cli/options/option_group.hpp"
 #include "cli/options/read_limits_option.hpp"
 #include "cli/sequence/distinct_files.hpp"
+#include "cli/sequence/frame_meshes.hpp"
 #include "cli/surfaces/mesh_output.hpp"
 #include "formats/meshes/mesh_file.hpp"
 #include "meniscus/error.hpp"
@@ -23,6 +24,7 @@ constexpr std::size_t largest_side = 8192;
 struct PictureCommand {
     std::string mesh;
     std::optional<MeshFormat> input_format;
+    std::optional<std::uint64_t> frame;
     formats::ReadLimits limits;
     std::string out;
     std::vector<double> view;
@@ -41,23 +43,31 @@ void picture(PictureCommand command) {
             throw InvalidInput("--range is from " + value_text(command.range[0], 0.0) + " to " +
                                value_text(command.range[1], 0.0) + ", its first number must be less than its second");
     }
-    check_named(command.mesh, command.input_format.has_value(), "--input-format", formats::read_mesh_formats());
+    const bool frames = has_frames(command.mesh);
+    if (!frames && command.frame)
+        throw InvalidInput("--frame is of a recording or a publication, and " + command.mesh + " is a file of a mesh");
+    if (!frames)
+        check_named(command.mesh, command.input_format.has_value(), "--input-format", formats::read_mesh_formats());
     check_folder(command.out);
     DistinctFiles distinct;
-    distinct.add_input(command.mesh);
+    if (!frames) distinct.add_input(command.mesh);
     distinct.add_output(command.out);
-    const formats::TriangleMesh mesh = formats::read_mesh(command.mesh, command.input_format, command.limits);
+    const formats::TriangleMesh mesh = frames ? formats::to_triangles(frame_of(command.mesh, command.frame).mesh())
+                                              : formats::read_mesh(command.mesh, command.input_format, command.limits);
     formats::write_png(command.out, draw_picture(mesh, command.options));
 }
 
 void add_files(CLI::App& command, PictureCommand& options) {
     const OptionGroup group(command, files_heading);
     command
-        .add_option("MESH", options.mesh, "Mesh: " + listed(formats::read_mesh_formats()) + "; - for standard input")
+        .add_option("MESH", options.mesh,
+                    "Mesh: " + listed(formats::read_mesh_formats()) +
+                        "; - for standard input; a recording or a publication's folder")
         ->required();
     command.add_option("-o,--output", options.out, "PNG file; - for standard output")->required();
     add_named_option(command, "--input-format", options.input_format,
                      "Format of MESH, whatever its extension; - needs it");
+    add_frame_option(command, options.frame, "the newest");
 }
 
 }  // namespace

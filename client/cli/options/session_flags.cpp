@@ -27,8 +27,30 @@ CLI::Validator checked_by(Require require) {
 
 }  // namespace
 
-void SessionFlags::add_to(CLI::App& command, CLI::Option& server) {
+std::vector<CLI::Option*> add_description_flags(CLI::App& command, client::SessionDescription& description,
+                                                const std::string& when) {
     using client::UpAxis;
+    return {command.add_option("--name", description.name, when + "what people call the session, 1 to 64 characters")
+                ->check(not_empty("1 to 64 characters"))
+                ->check(checked_by([](const std::string& text) { description::require_name(text); })),
+            command
+                .add_option_function<std::string>(
+                    "--up-axis",
+                    [&description](const std::string& name) {
+                        for (const UpAxis axis : {UpAxis::x, UpAxis::y, UpAxis::z})
+                            if (name_of(axis) == name) description.up_axis = axis;
+                    },
+                    when + "the axis that viewers show upright")
+                ->type_name("AXIS")
+                ->check(CLI::IsMember(std::vector<std::string>{"x", "y", "z"})),
+            command
+                .add_option("--length-unit", description.length_unit,
+                            when + "unit of the coordinates, such as m, 1 to 16 characters")
+                ->check(not_empty("1 to 16 characters"))
+                ->check(checked_by([](const std::string& text) { description::require_length_unit(text); }))};
+}
+
+void SessionFlags::add_to(CLI::App& command, CLI::Option& server) {
     const OptionGroup group(command, session_heading);
     command
         .add_option("--session", id,
@@ -36,27 +58,8 @@ void SessionFlags::add_to(CLI::App& command, CLI::Option& server) {
         ->type_name("UUID")
         ->check(not_empty("a UUID"))
         ->needs(&server);
-    command.add_option("--name", description.name, "With --server: what people call the session, 1 to 64 characters")
-        ->check(not_empty("1 to 64 characters"))
-        ->check(checked_by([](const std::string& text) { description::require_name(text); }))
-        ->needs(&server);
-    command
-        .add_option_function<std::string>(
-            "--up-axis",
-            [this](const std::string& name) {
-                for (const UpAxis axis : {UpAxis::x, UpAxis::y, UpAxis::z})
-                    if (name_of(axis) == name) description.up_axis = axis;
-            },
-            "With --server: the axis that viewers show upright")
-        ->type_name("AXIS")
-        ->check(CLI::IsMember(std::vector<std::string>{"x", "y", "z"}))
-        ->needs(&server);
-    command
-        .add_option("--length-unit", description.length_unit,
-                    "With --server: unit of the coordinates, such as m, 1 to 16 characters")
-        ->check(not_empty("1 to 16 characters"))
-        ->check(checked_by([](const std::string& text) { description::require_length_unit(text); }))
-        ->needs(&server);
+    for (CLI::Option* const option : add_description_flags(command, description, "With --server: "))
+        option->needs(&server);
     command.add_flag("--keep-session", keep, "With --server: leave the session, and its last surface, on the server")
         ->needs(&server);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "meniscus/client/client.hpp"
 
@@ -11,6 +12,11 @@ class Option;
 }  // namespace CLI
 
 namespace meniscus::cli {
+
+/// --name, --up-axis and --length-unit. when: stands before what --help says of them. description: outlives the
+/// parsing.
+std::vector<CLI::Option*> add_description_flags(CLI::App& command, client::SessionDescription& description,
+                                                const std::string& when);
 
 /// --session, --name, --up-axis, --length-unit and --keep-session.
 struct SessionFlags {

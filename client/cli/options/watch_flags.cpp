@@ -27,7 +27,8 @@ std::string names_of(const std::vector<std::string>& attributes) {
 }
 
 std::vector<AttributeWish> requests_for(const std::vector<std::string>& names, int bits, const Settings& settings) {
-    if (names == std::vector<std::string>{std::string(every_attribute)}) return {{.name = {}, .bits = bits}};
+    if (names.empty() || names == std::vector<std::string>{std::string(every_attribute)})
+        return {{.name = {}, .bits = bits}};
     if (names == std::vector<std::string>{std::string(no_attribute)}) return {};
     std::vector<AttributeWish> requests;
     for (const std::string& name : names) {
@@ -44,16 +45,16 @@ std::vector<AttributeWish> requests_for(const std::vector<std::string>& names, i
 
 }  // namespace
 
-void WatchFlags::add_to(CLI::App& command) {
-    const OptionGroup group(command, "What is sent");
+void WatchFlags::add_form_to(CLI::App& command, const std::string& heading, const std::string& codec_otherwise,
+                             const std::string& attributes_otherwise) {
+    const OptionGroup group(command, heading);
     add_normal_bits(command, normal_bits, "")->default_str(std::to_string(options.normal_bits));
     add_normals_by(command, options.normals_by);
     command
-        .add_option("--attribute", attributes,
-                    "Attribute of the session that the meshes carry, once for each; all, or none of them")
+        .add_option("--attribute", attributes, "Attribute that the meshes carry, once for each; all, or none of them")
         ->type_name("NAME")
         ->allow_extra_args(false)
-        ->capture_default_str();
+        ->default_str(attributes_otherwise);
     add_attribute_bits(command, attribute_bits);
     command
         .add_option(
@@ -61,10 +62,16 @@ void WatchFlags::add_to(CLI::App& command) {
             "Vertices lie on multiples of the cell size / 2^BITS, 2 or more; fewer bits take fewer bytes. Default: as "
             "reconstructed")
         ->check(CLI::Range(2, 8));
-    add_codec(command, options.codec, "packed from this machine, entropy from others and in files of bricks");
+    add_codec(command, options.codec, codec_otherwise);
     command.add_option("--max-level", options.max_level, "Finest level of grid, 1 to 3: a coarser surface, as closed")
         ->check(CLI::Range(1, 3))
         ->capture_default_str();
+}
+
+void WatchFlags::add_to(CLI::App& command) {
+    constexpr const char* heading = "What is sent";
+    add_form_to(command, heading, "packed from this machine, entropy from others and in files of bricks", "all");
+    const OptionGroup group(command, heading);
     command.add_option("--region", region, "X0 Y0 Z0 X1 Y1 Z1: only bricks that touch this box, world units")
         ->expected(6);
     command

@@ -28,12 +28,17 @@ CLI::Validator whole_number_from(std::uint64_t least) {
 
 }  // namespace
 
-void FrameSelection::add_to(CLI::App& command) {
+void FrameSelection::add_range_to(CLI::App& command) {
     const OptionGroup group(command, sequence_heading);
     const CLI::Validator not_negative = whole_number_from(0).description("NONNEGATIVE");
-    const CLI::Validator positive = whole_number_from(1).description("POSITIVE");
     command.add_option("--start", start, "First frame (default: the first that is there)")->check(not_negative);
     command.add_option("--end", end, "Last frame (default: the last that is there)")->check(not_negative);
+}
+
+void FrameSelection::add_to(CLI::App& command) {
+    add_range_to(command);
+    const OptionGroup group(command, sequence_heading);
+    const CLI::Validator positive = whole_number_from(1).description("POSITIVE");
     command.add_option("--step", step, "One of this many frame numbers, from the first frame on")
         ->check(positive)
         ->capture_default_str();

@@ -27,6 +27,9 @@ struct FrameSelection {
     bool skip_missing = false;
 
     void add_to(CLI::App& command);
+    /// --start and --end alone.
+    void add_range_to(CLI::App& command);
+    bool is_in_range(std::uint64_t number) const { return (!start || number >= *start) && (!end || number <= *end); }
     /// Whether any of the flags is given.
     bool is_given() const { return start || end || step != 1 || skip_missing; }
     /// The files of the pattern, by rising number. `{}` in the pattern then stands for numbers as these files have

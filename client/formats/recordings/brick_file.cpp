@@ -3,59 +3,20 @@
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/util/delimited_message_util.h>
 
-#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <utility>
 
-#include "conversion/attribute_conversion.hpp"
-#include "conversion/brick_conversion.hpp"
-#include "conversion/spray_conversion.hpp"
-#include "conversion/statistics_conversion.hpp"
 #include "files/brick_file_format.hpp"
 #include "formats/bytes/atomic_file.hpp"
 #include "formats/bytes/byte_cursor.hpp"
 #include "meniscus/v1/brick_file.pb.h"
 #include "meniscus/v1/surface_service.pb.h"
+#include "receiving/frame_messages.hpp"
 #include "receiving/frame_receiver.hpp"
 
 namespace meniscus::formats {
 namespace {
-
-v1::StreamResponse begin_message(const client::ReceivedFrame& frame) {
-    v1::StreamResponse message;
-    v1::MeshBegin& begin = *message.mutable_mesh_begin();
-    begin.set_frame_index(frame.index);
-    begin.set_simulation_time(frame.simulation_time);
-    begin.set_cell_size(frame.cell_size);
-    begin.set_offset_bits(frame.offset_bits);
-    begin.set_brick_cells(brick_cells);
-    begin.set_brick_count(static_cast<std::uint32_t>(frame.bricks.size()));
-    begin.set_run_id(frame.run_id);
-    begin.set_spray_count(frame.spray.size());
-    for (const client::FrameAttribute& attribute : frame.attributes) {
-        const auto coded = std::ranges::find(frame.coded_attributes, attribute.name, &CodedAttribute::name);
-        conversion::announce({attribute.name, attribute.type, attribute.components, {}},
-                             attribute.range ? &*attribute.range : nullptr,
-                             coded == frame.coded_attributes.end() ? nullptr : &*coded, begin);
-    }
-    std::uint64_t triangles = 0;
-    for (const auto& brick : frame.bricks) triangles += brick->triangles;
-    begin.set_triangle_count(triangles);
-    return message;
-}
-
-v1::StreamResponse statistics_message(const client::ReceivedFrame& frame) {
-    v1::StreamResponse message;
-    v1::FrameStatistics& out = *message.mutable_frame_statistics();
-    conversion::to_wire(frame.statistics, out);
-    out.set_frame_index(frame.index);
-    out.set_simulation_time(frame.simulation_time);
-    out.set_encode_seconds(frame.statistics.encode_seconds);
-    out.set_latency_seconds(frame.statistics.latency_seconds);
-    out.set_encoded_bytes(frame.statistics.encoded_bytes);
-    return message;
-}
 
 /// Messages, each after its length.
 class Messages {
@@ -141,19 +102,7 @@ void write_bricks(const std::filesystem::path& path, const client::ReceivedFrame
     v1::BrickFileBegin begin;
     begin.set_version(files::brick_file_version);
     write(begin);
-    write(begin_message(frame));
-    for (const auto& brick : frame.bricks)
-        for (v1::MeshBrick& part : conversion::to_wire(*brick)) {
-            v1::StreamResponse message;
-            *message.mutable_mesh_brick() = std::move(part);
-            write(message);
-        }
-    for (v1::SprayPoints& points : conversion::to_wire(frame.spray)) {
-        v1::StreamResponse message;
-        *message.mutable_spray_points() = std::move(points);
-        write(message);
-    }
-    write(statistics_message(frame));
+    client::give_messages(frame, nullptr, write);
     file.commit();
 }
 
@@ -182,7 +131,7 @@ client::ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistic
     frame.index = index;
     frame.simulation_time = simulation_time;
     frame.cell_size = mesh.cell_size;
-    frame.offset_bits = mesh.offset_bits;
+    frame.offset_bits = encoded_offset_bits(mesh, options);
     frame.spray.assign(mesh.spray.begin(), mesh.spray.end());
     frame.attributes = attributes_of(mesh);
     frame.coded_attributes = options.attributes;

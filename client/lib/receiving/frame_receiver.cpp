@@ -1,6 +1,5 @@
 #include "receiving/frame_receiver.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -9,6 +8,7 @@
 #include "conversion/brick_conversion.hpp"
 #include "conversion/spray_conversion.hpp"
 #include "meniscus/error.hpp"
+#include "receiving/announced_attribute.hpp"
 #include "receiving/frame_statistics.hpp"
 
 namespace meniscus::client {
@@ -33,24 +33,13 @@ std::string frame_name(std::uint64_t index) {
     return "frame " + std::to_string(index);
 }
 
-/// The attribute of a message that coded_attributes() accepts.
-FrameAttribute announced(const v1::MeshAttribute& wire) {
-    FrameAttribute attribute{
-        .name = wire.name(), .type = conversion::from_wire(wire.type()), .components = wire.components()};
-    if (wire.minimum_size() == 0) return attribute;
-    AttributeRange& range = attribute.range.emplace();
-    std::ranges::copy(wire.minimum(), range.minimum.begin());
-    std::ranges::copy(wire.maximum(), range.maximum.begin());
-    return attribute;
-}
-
 void take_attributes(const v1::MeshBegin& message, ReceivedFrame& frame) {
     try {
         frame.coded_attributes = conversion::coded_attributes(message);
     } catch (const InvalidInput& error) {
         throw ServerError(frame_name(message.frame_index()) + ": " + error.what());
     }
-    for (const v1::MeshAttribute& wire : message.attributes()) frame.attributes.push_back(announced(wire));
+    for (const v1::MeshAttribute& wire : message.attributes()) frame.attributes.push_back(announced_attribute(wire));
 }
 
 }  // namespace

@@ -29,6 +29,11 @@ Somebody else's session:
     >>> for frame in client.watch(session_id, max_level=2):
     ...     print(frame.index, frame.statistics.triangles)
 
+A surface as plain files, which any web host carries, written and read back:
+
+    >>> meniscus.publish(meniscus.RecordingFile("000001.recording"), "site", page=True)
+    >>> [len(frame.mesh.triangles) for frame in meniscus.open("https://water.example/site/")]
+
 Everything that is wrong raises one of meniscus.InvalidInput, LimitExceeded, DeviceError and ServerError, all of them
 meniscus.Error. Read on at Reconstructor (the settings), Client and Mesh.
 """
@@ -40,6 +45,7 @@ from .files import Particles, mesh_extensions, particle_extensions, read_particl
 from .frame import AttributeForm, Frame, ParticleFrame
 from .information import RecordingInfo, ServerInfo, SessionInfo
 from .mesh import DeviceArray, DeviceMesh, Mesh
+from .publication import Publication, open, publish
 from .reconstructor import Reconstructor, reconstruct
 from .recording_file import RecordingFile, read_bricks
 from .server import Server
@@ -65,6 +71,7 @@ __all__ = [
     "ParticleFrame",
     "ParticleWatcher",
     "Particles",
+    "Publication",
     "Reconstructor",
     "RecordingFile",
     "RecordingInfo",
@@ -81,7 +88,9 @@ __all__ = [
     "Watcher",
     "__version__",
     "mesh_extensions",
+    "open",
     "particle_extensions",
+    "publish",
     "read_bricks",
     "read_particles",
     "reconstruct",

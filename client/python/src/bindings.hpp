@@ -17,6 +17,7 @@ void bind_stream(pybind11::module_& module);
 void bind_watcher(pybind11::module_& module);
 void bind_recording(pybind11::module_& module);
 void bind_recording_file(pybind11::module_& module);
+void bind_publication(pybind11::module_& module);
 void bind_session(pybind11::module_& module);
 void bind_client(pybind11::module_& module);
 

@@ -37,6 +37,7 @@ PYBIND11_MODULE(_meniscus, module) {
     bind_watcher(module);
     bind_recording(module);
     bind_recording_file(module);
+    bind_publication(module);
     bind_session(module);
     bind_client(module);
     forbid_bare_objects(module);

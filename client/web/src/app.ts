@@ -8,10 +8,15 @@ import { listenToPage } from './frame/frame_guest';
 import type { HandedOver } from './frame/messages';
 import { bindKeys } from './keys/page_keys';
 import { ThumbnailPainter } from './list/thumbnail_painter';
+import { publicationOf } from './publications/publication_place';
+import { PublicationView } from './publications/publication_view';
+import { recordedFrames } from './recordings/recorded_frames';
 import { RecordingView } from './recordings/recording_view';
 import { Server } from './rpc/server';
 import { writeGlb } from './save/glb';
 import { writePly } from './save/ply';
+import { givenName } from './list/session_name';
+import { factsOfPublication } from './scene_facts';
 import { Screen } from './screen';
 import { SessionView } from './session_view';
 import type { WatchState } from './stream/watch_state';
@@ -20,7 +25,7 @@ import { copyAddress } from './ui/copy_address';
 import { download } from './ui/download';
 import { toggleFullScreen } from './ui/full_screen';
 import { Heading } from './ui/heading';
-import { readLink, writeLink, type PageState } from './ui/link';
+import { readLink, withoutServer, writeLink, type PageState } from './ui/link';
 import { nameOnLongPress } from './ui/long_press';
 import { Overlay } from './ui/overlay';
 import { element } from './ui/page';
@@ -57,10 +62,15 @@ export class App {
   private readonly canvas = element('view', HTMLCanvasElement);
   private readonly viewer: Viewer;
   private readonly screen: Screen;
-  private readonly playback = new Playback();
+  private readonly playback = new Playback(() => {
+    this.writeAddress();
+  });
   private readonly tools: Tools;
   private readonly sessionView: SessionView;
   private readonly recordingView: RecordingView;
+  private readonly publicationView: PublicationView;
+  /** That which this page shows, whatever else its address says. */
+  private readonly publication = publicationOf(document, location);
   private readonly list: SessionList;
   private readonly recordings: RecordingList;
   /** The session, or the recording and the place in it, that is shown. */
@@ -146,6 +156,7 @@ export class App {
         this.handingFailed = true;
         this.banner.say(reason);
       },
+      allFrames: () => this.allFrames(),
     });
     this.sessionView = new SessionView(this.server, this.screen, this.playback, {
       state: (state) => {
@@ -166,8 +177,19 @@ export class App {
         this.heading.described(recording);
       },
       restsAt: (position) => {
-        this.at = { ...this.at, position };
-        this.writeAddress();
+        this.restsAt(position);
+      },
+    });
+    this.publicationView = new PublicationView(this.screen, this.playback, {
+      state: (state) => {
+        this.watchState(state);
+      },
+      found: (manifest) => {
+        this.heading.showPublication(givenName(manifest));
+        this.tools.describe(factsOfPublication(manifest));
+      },
+      restsAt: (position) => {
+        this.restsAt(position);
       },
     });
     this.recordings = new RecordingList(this.server, painter, (recording) => {
@@ -203,7 +225,8 @@ export class App {
     else this.canvas.focus();
   }
 
-  private open(state: PageState): void {
+  private open(linked: PageState): void {
+    const state = this.publication ? withoutServer(linked) : linked;
     this.linked = state;
     this.at = {
       ...(state.session === undefined ? {} : { session: state.session }),
@@ -211,8 +234,11 @@ export class App {
     };
     this.sessionView.stop();
     this.recordingView.stop();
+    this.publicationView.stop();
     this.screen.clear();
     this.playback.play(undefined);
+    this.playback.setSpeed(state.speed ?? 1);
+    this.playback.setLoops(state.loop === 'on');
     delete this.canvas.dataset.frame;
     delete this.canvas.dataset.triangles;
     delete this.canvas.dataset.particles;
@@ -220,8 +246,10 @@ export class App {
     this.banner.say('');
     const watching = this.looking;
     element('watch', HTMLElement).hidden = !watching;
-    element('leave', HTMLButtonElement).hidden = !watching;
-    if (state.recording) this.heading.showRecording(state.recording);
+    element('leave', HTMLButtonElement).hidden = !watching || this.publication !== undefined;
+    element('beside', HTMLButtonElement).hidden = this.publication !== undefined;
+    if (this.publication) this.heading.showPublication('');
+    else if (state.recording) this.heading.showRecording(state.recording);
     else if (state.session !== undefined) this.heading.showSession(state.session);
     else this.heading.showNothing();
     this.offer.withdraw();
@@ -248,19 +276,34 @@ export class App {
     this.recordings.hide();
     this.setLook(state.look ?? 'water');
     this.setParticles(false);
-    if (state.recording) this.recordingView.start(state.recording, state.position);
+    if (this.publication) this.publicationView.start(this.publication, state.position);
+    else if (state.recording) this.recordingView.start(state.recording, state.position);
     else this.sessionView.start(state.session!);
   }
 
   /** Whether something is looked at, or else the list. */
   private get looking(): boolean {
-    return this.at.session !== undefined || this.at.recording !== undefined;
+    return this.publication !== undefined || this.at.session !== undefined || this.at.recording !== undefined;
+  }
+
+  private restsAt(position: number): void {
+    this.at = { ...this.at, position };
+    this.writeAddress();
+  }
+
+  private allFrames(): ((signal: AbortSignal) => AsyncIterable<Frame>) | undefined {
+    const { recording } = this.at;
+    if (this.publication) return (signal) => this.publicationView.allFrames(signal);
+    if (!recording) return undefined;
+    return (signal) =>
+      recordedFrames(this.server.readRecording({ sessionId: recording.session, number: recording.number }, signal));
   }
 
   private frameDrawn(frame: Frame): void {
     if (!this.screen.frameDrawn(frame)) return;
     this.tools.frameDrawn(frame);
-    if (this.at.recording) this.recordingView.frameDrawn(frame);
+    if (this.publication) this.publicationView.frameDrawn(frame);
+    else if (this.at.recording) this.recordingView.frameDrawn(frame);
     else this.sessionView.frameDrawn(frame);
   }
 
@@ -301,7 +344,8 @@ export class App {
   }
 
   private showWhatApplies(): void {
-    const playing = this.at.recording !== undefined && this.watchKind === 'live';
+    const played = this.publication !== undefined || this.at.recording !== undefined;
+    const playing = played && this.watchKind === 'live';
     this.screen.overlay.setSeen(this.streaming ? 'stream' : playing ? 'playing' : 'resting');
   }
 
@@ -438,12 +482,19 @@ export class App {
   }
 
   private writeAddress(): void {
-    // The state that a page hands over stays out of the address.
-    if (this.embedding || !this.screen.shown || !this.looking) return;
+    // The state that a page hands over stays out of the address; a page within a notebook has none.
+    if (this.embedding || location.protocol === 'about:' || !this.screen.shown || !this.looking) return;
     history.replaceState(
       null,
       '',
-      writeLink({ ...this.at, ...this.tools.state, camera: this.viewer.cameraPlace, look: this.look }),
+      writeLink({
+        ...this.at,
+        ...this.tools.state,
+        camera: this.viewer.cameraPlace,
+        look: this.look,
+        speed: this.playback.speed,
+        ...(this.playback.loops ? { loop: 'on' } : {}),
+      }),
     );
   }
 }

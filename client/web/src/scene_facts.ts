@@ -2,6 +2,7 @@
 import type { Recording } from './gen/meniscus/v1/recording_service_pb';
 import { UpAxis as WireUpAxis, type Session, type SessionDescription } from './gen/meniscus/v1/session_service_pb';
 import type { Box } from './gen/meniscus/v1/settings_pb';
+import type { Manifest } from './publications/manifest';
 import { sameRecording, type RecordingName } from './recordings/recording_name';
 import type { Server } from './rpc/server';
 import type { WorldBox } from './view/bounds';
@@ -30,6 +31,10 @@ export function factsOfSession({ description, settings }: Session): SceneFacts {
 
 export function factsOfRecording({ description }: Recording): SceneFacts {
   return { ...described(description), domain: undefined };
+}
+
+export function factsOfPublication({ description, settings }: Pick<Manifest, 'description' | 'settings'>): SceneFacts {
+  return { ...described(description), domain: boxOf(settings?.domain) };
 }
 
 /** None where the server knows nothing of it, or cannot be asked: the watch reports that. */

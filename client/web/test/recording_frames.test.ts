@@ -1,4 +1,5 @@
 import { describe, expect, it, vi } from 'vitest';
+import { recordedFrames } from '../src/recordings/recorded_frames';
 import { RecordingFrames, type RecordingFramesLimits } from '../src/recordings/recording_frames';
 import { frame } from './support/messages';
 
@@ -63,7 +64,12 @@ function recording(length: number, limits: Partial<RecordingFramesLimits> = {}, 
         const bricks = [
           { place: [0, 0, 0] as [number, number, number], parts: [new Array<number>(brickBytes).fill(0)] },
         ];
-        for (const message of frame({ index: 10 * (position + i), bricks })) yield { message, bytes: 7 };
+        yield* recordedFrames(
+          (async function* () {
+            for (const message of frame({ index: 10 * (position + i), bricks }))
+              yield await Promise.resolve({ message, bytes: 7 });
+          })(),
+        );
       }
     },
     { ahead: 4, frames: 8, bytes: 1000, ...limits },

@@ -92,3 +92,20 @@ export function startUploader(server, args, session = randomUUID()) {
     },
   };
 }
+
+/** Publishes a session to a folder. Resolves once the manifest is there. */
+export async function startPublisher(server, session, folder, ...args) {
+  const child = start(meniscus, ['publish', session, '--server', server.address, '--to', folder, ...args]);
+  await printed(child, /publishing/);
+  return {
+    kill: async () => {
+      child.kill('SIGKILL');
+      await child.ended;
+    },
+  };
+}
+
+/** Writes the meshes of a session as they come. */
+export function startWatcher(server, session, folder) {
+  start(meniscus, ['watch', session, '--server', server.address, '-o', folder, '--format', 'bricks', '-q']);
+}

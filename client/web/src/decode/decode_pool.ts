@@ -1,5 +1,6 @@
 // Spreads bricks over workers, each of which decodes one at a time.
 import type { EncodedBrick } from '../bricks/frame';
+import { startDecodeWorker } from './start_worker';
 import type { DecodedBrick } from './decoded_brick';
 import type { DecodeAnswer, DecodeRequest } from './messages';
 
@@ -58,10 +59,5 @@ export class DecodePool {
 /** One worker for each processor but the page's own. */
 export function startDecodePool(): DecodePool {
   const count = Math.min(4, Math.max(1, navigator.hardwareConcurrency - 1));
-  return new DecodePool(
-    Array.from(
-      { length: count },
-      () => new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'decode' }),
-    ),
-  );
+  return new DecodePool(Array.from({ length: count }, startDecodeWorker));
 }

@@ -1,22 +1,15 @@
 // The frames of a recording, fetched around the one that is wanted, and kept for a while.
 import type { Frame } from '../bricks/frame';
-import { FrameReceiver } from '../bricks/frame_receiver';
-import type { WatchResponse } from '../gen/meniscus/v1/surface_service_pb';
-import type { Received } from '../rpc/call';
 
 /** Frames from a place on. */
-export type ReadFrames = (
-  position: number,
-  count: number,
-  signal: AbortSignal,
-) => AsyncIterable<Received<WatchResponse>>;
+export type ReadFrames = (position: number, count: number, signal: AbortSignal) => AsyncIterable<Frame>;
 
 export interface RecordingFramesEvents {
   /** The frame that is wanted. */
   frame(frame: Frame, position: number): void;
   /** The one that is wanted could not be fetched; nothing is tried until show(). */
   failed(error: unknown): void;
-  /** The size of every message, as it comes. */
+  /** The size of every frame, as it comes. */
   received(bytes: number): void;
 }
 
@@ -45,11 +38,21 @@ export class RecordingFrames {
   private last = 0;
 
   constructor(
-    readonly length: number,
+    private count: number,
     private readonly read: ReadFrames,
     private readonly limits: RecordingFramesLimits,
     private readonly events: RecordingFramesEvents,
   ) {}
+
+  get length(): number {
+    return this.count;
+  }
+
+  /** More frames have come. */
+  grow(length: number): void {
+    this.count = Math.max(this.count, length);
+    if (this.wanted === undefined && this.last > 0) this.fetchAhead();
+  }
 
   /** The latest one that is asked for wins: an earlier one that has not come is not waited for. */
   show(position: number): void {
@@ -81,27 +84,25 @@ export class RecordingFrames {
   /** Once half of what was fetched ahead has been seen, the next part. */
   private fetchAhead(): void {
     if (this.fetch) return;
-    const due = Math.min(this.length, this.last + Math.ceil(this.limits.ahead / 2));
+    const due = Math.min(this.count, this.last + Math.ceil(this.limits.ahead / 2));
     let first = this.last;
     while (first < due && this.kept.has(first)) ++first;
     if (first === due) return;
-    const end = Math.min(this.length, first + this.limits.ahead);
+    const end = Math.min(this.count, first + this.limits.ahead);
     this.fetch = { abort: new AbortController(), next: first, end };
     void this.run(this.fetch);
   }
 
   private async run(fetch: Fetch): Promise<void> {
     const { signal } = fetch.abort;
-    const receiver = new FrameReceiver();
     try {
-      for await (const { message, bytes } of this.read(fetch.next, fetch.end - fetch.next, signal)) {
+      for await (const frame of this.read(fetch.next, fetch.end - fetch.next, signal)) {
         if (signal.aborted) return;
-        this.events.received(bytes);
-        const frame = receiver.take(message, bytes, performance.now());
-        if (frame) this.take(fetch, frame);
+        this.events.received(frame.bytes);
+        this.take(fetch, frame);
       }
       if (signal.aborted) return;
-      if (fetch.next < fetch.end) throw new Error(`The recording has ended before its frame ${fetch.next}.`);
+      if (fetch.next < fetch.end) throw new Error(`The frames have ended before that at place ${fetch.next}.`);
       this.fetch = undefined;
     } catch (error) {
       if (signal.aborted) return;

@@ -2,7 +2,6 @@
 import type { Frame } from '../bricks/frame';
 import type { ColorChoice } from '../color/color_choice';
 import type { DecodePool } from '../decode/decode_pool';
-import { recordedFrames } from '../recordings/recorded_frames';
 import type { RecordingName } from '../recordings/recording_name';
 import type { Server } from '../rpc/server';
 import { Picture } from '../save/picture';
@@ -41,6 +40,8 @@ export interface ToolsEvents {
   attribute(name: string | undefined): void;
   /** There is no such attribute: the panel says so, too. */
   absent(reason: string): void;
+  /** All frames of what is looked at, each once, where it is a recording or a publication. */
+  allFrames(): ((signal: AbortSignal) => AsyncIterable<Frame>) | undefined;
 }
 
 type ToolAction =
@@ -257,6 +258,12 @@ export class Tools {
     this.beside.setPaused(state.kind === 'paused');
   }
 
+  /** What is known of what is looked at. */
+  describe(facts: SceneFacts): void {
+    this.facts = facts;
+    this.applyFacts();
+  }
+
   /** With another token. */
   restart(): void {
     this.beside.restart();
@@ -408,13 +415,12 @@ export class Tools {
 
   private recorded(): Recorded | undefined {
     const { at } = this;
-    const { recording } = at;
-    if (!recording) return undefined;
+    const frames = this.events.allFrames();
+    if (!frames) return undefined;
     this.playback.setPaused(true);
     return {
       length: this.playback.length,
-      frames: (signal) =>
-        recordedFrames(this.server.readRecording({ sessionId: recording.session, number: recording.number }, signal)),
+      frames,
       draw: (frame) => this.screen.draw(frame),
       done: () => {
         // Back to the frame of the slider.

@@ -48,6 +48,13 @@ export class Heading {
     this.say(`Recording ${recordingNameText(name)}`, `Recording of ${shortId(name.session)}`);
   }
 
+  /** name: for people; empty: it has none. */
+  showPublication(name: string): void {
+    this.clear();
+    const text = name === '' ? 'Publication' : name;
+    this.say(text, text);
+  }
+
   /** Takes the description of the recording that is shown. */
   described(recording: Recording): void {
     const name = givenName(recording);

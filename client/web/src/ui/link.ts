@@ -10,8 +10,12 @@ import { linkNumber, numbers, readToolsLink, writeToolsLink, type ToolsState } f
 export interface PageState extends ToolsState {
   readonly session?: string;
   readonly recording?: RecordingName;
-  /** The place of a recording's frame. */
+  /** The place of a recording's frame, or of a publication's. */
   readonly position?: number;
+  /** Of a recording or a publication, relative to its own. */
+  readonly speed?: number;
+  /** Begins again after the last frame. */
+  readonly loop?: 'on';
   readonly camera?: CameraPlace;
   readonly look?: Look;
   /** None: what the session says. */
@@ -31,12 +35,15 @@ export function readLink(hash: string): PageState {
   const recording = readRecordingName(fields.get('recording') ?? '');
   const problem = problemOf(session, fields.get('recording'));
   const position = fields.get('position') ?? '';
+  const [speed] = numbers(fields.get('speed')) ?? [];
   const camera = readCamera(fields.get('camera'));
   const up = fields.get('up') ?? '';
   return {
     ...(session !== null && isSessionId(session) ? { session } : {}),
     ...(recording ? { recording } : {}),
-    ...(recording && /^[0-9]{1,15}$/.test(position) ? { position: Number(position) } : {}),
+    ...(session === null && /^[0-9]{1,15}$/.test(position) ? { position: Number(position) } : {}),
+    ...(speed === undefined ? {} : { speed }),
+    ...(fields.get('loop') === 'on' ? { loop: 'on' as const } : {}),
     ...(camera ? { camera } : {}),
     ...(fields.get('look') === 'levels' ? { look: 'levels' as const } : {}),
     ...(isAxis(up) ? { up } : {}),
@@ -58,11 +65,24 @@ function short(text: string): string {
   return text.length > 64 ? `${text.slice(0, 64)}…` : text;
 }
 
-export function writeLink({ session, recording, position, camera, look, up, ...tools }: PageState): string {
+/** What a page without a server can show. */
+export function withoutServer(state: PageState): PageState {
+  const kept: { -readonly [Field in keyof PageState]: PageState[Field] } = { ...state };
+  delete kept.session;
+  delete kept.recording;
+  delete kept.beside;
+  return kept;
+}
+
+/** What a publication's page shows besides stands in the address itself. */
+export function writeLink(state: PageState): string {
+  const { session, recording, position, speed, loop, camera, look, up, ...tools } = state;
   const fields = new URLSearchParams();
   if (session !== undefined) fields.set('session', session);
   if (recording) fields.set('recording', recordingNameText(recording));
-  if (recording && position !== undefined) fields.set('position', String(position));
+  if (session === undefined && position !== undefined) fields.set('position', String(position));
+  if (speed !== undefined && speed !== 1) fields.set('speed', String(linkNumber(speed)));
+  if (loop) fields.set('loop', loop);
   if (camera) fields.set('camera', [...camera.position, ...camera.target].map(linkNumber).join(','));
   if (look === 'levels') fields.set('look', look);
   if (up) fields.set('up', up);

@@ -26,3 +26,6 @@ with client.session(0.1, name="dam", up_axis="z", field="color", iso=0.5) as ses
     meniscus.show(session, color="velocity")
 for recording in client.recordings():
     client.read_recording(recording, count=5)
+publication = meniscus.publish([meniscus.reconstruct(x, 0.1)], "site", name="dam", keep=60, page=True)
+published: float = meniscus.open("https://water.example/site/")[0].mesh.area + len(publication)
+meniscus.publish(client.watch("dam"), "live", live=True)

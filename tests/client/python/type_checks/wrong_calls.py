@@ -42,3 +42,5 @@ stream.push(x, time="now")  # wrong
 stream.apush(x, velocity=x)  # wrong
 meniscus.read_particles(5)  # wrong
 meniscus.show("dam")  # wrong
+meniscus.open(5)  # wrong
+meniscus.publish([x], "site")  # wrong

@@ -1,0 +1,28 @@
+// Which publication this page shows: its own, where it is one; else that of its address, `?publication=URL`.
+import { FileMissing, filesAt, filesInPage, type PublicationFiles } from './publication_files';
+
+/** None where the page shows a server's sessions. */
+export function publicationOf(
+  page: Document,
+  { search, href }: Pick<Location, 'search' | 'href'>,
+): PublicationFiles | undefined {
+  const inPage = filesInPage(page);
+  if (inPage) return inPage;
+  const beside = page.querySelector<HTMLMetaElement>('meta[name="meniscus-publication"]')?.content;
+  const named = beside ?? new URLSearchParams(search).get('publication');
+  if (named === null) return undefined;
+  const url = parsed(named, href);
+  if (url) return filesAt(url);
+  return {
+    read: () => Promise.reject(new FileMissing('This address names a publication that cannot be: it is no URL.')),
+  };
+}
+
+function parsed(url: string, base: string): URL | undefined {
+  try {
+    const { protocol, href } = new URL(url, base);
+    return protocol === 'http:' || protocol === 'https:' ? new URL(href) : undefined;
+  } catch {
+    return undefined;
+  }
+}

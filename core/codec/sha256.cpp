@@ -1,0 +1,36 @@
+#include "codec/sha256.hpp"
+
+#include <array>
+#include <stdexcept>
+
+#include "meniscus/sha256.hpp"
+
+namespace meniscus {
+
+Sha256::Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
+    if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1)
+        throw std::runtime_error("OpenSSL offers no SHA-256");
+}
+
+void Sha256::add(std::span<const std::byte> bytes) {
+    EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size());
+}
+
+std::string Sha256::hexadecimal() {
+    std::array<unsigned char, 32> digest{};
+    EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr);
+    std::string text;
+    for (const unsigned char byte : digest) {
+        text += "0123456789abcdef"[byte >> 4];
+        text += "0123456789abcdef"[byte & 15];
+    }
+    return text;
+}
+
+std::string sha256_of(std::string_view bytes) {
+    Sha256 sha;
+    sha.add(std::as_bytes(std::span(bytes)));
+    return sha.hexadecimal();
+}
+
+}  // namespace meniscus
