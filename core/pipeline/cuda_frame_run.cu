@@ -15,7 +15,7 @@
 //   sample       list_corner_points, sample_list, settle_band               (cooperative); list_edge_middles, ...
 //   count        list_band, count_cells, count_cracks, scan, order_by_level_and_brick
 //   place        count_vertices, scan, require_room, place_listed; place_group for each group of attributes' numbers
-//   emit, fill   emit_cells, fill_listed, add_volumes
+//   emit, fill   emit_cells, fill_listed, add_volumes; keep_bricks
 //   Counts       -> pinned memory; the host waits
 //   PendingMesh  the mesh -> the caller's arrays                            (when they ask for it, on a stream of its
 //   own)
@@ -57,6 +57,7 @@ FrameRun::FrameRun(const LatticeSettings& settings, const BackendOptions& option
     host_counts_.reserve(sizeof(Counts));
     state_.settings.work_limit = options.work_limit;
     state_.stop_word = stop_.word();
+    state_.keeps_lattice = options.keep_lattice;
 }
 
 ParticlesByLevel FrameRun::validate(const ParticleFrame& on_device, cudaStream_t made_on, const Settings& settings) {
@@ -140,6 +141,7 @@ void FrameRun::emit_capped(int max_level, bool first) {
 }
 
 void FrameRun::poison() {
+        if (state_.keeps_lattice) keep_lattice(state_, launcher_);
     memory_.poison(state_.arrays());
     sets_.poison(state_);
 }
@@ -219,6 +221,7 @@ void FrameRun::fetch_counts() {
 }
 
 FrameRun::CapturedRun& FrameRun::current_graph() {
+    if (state.keeps_lattice) keep_lattice(state, launcher_);
     CapturedRun& run = graphs_[sets_.current()];
     if (const std::uint64_t version = sets_.version(sets_.current()); run.mesh_version != version) {
         run.graph.drop();
@@ -267,3 +270,4 @@ void FrameRun::require_indexable_counts() const {
 }
 
 }  // namespace meniscus::cuda
+    require_indexable(needed(Resource::lattice_blocks), "the surface's bricks reach", "base cells");

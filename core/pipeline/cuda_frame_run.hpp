@@ -19,7 +19,6 @@
 #include "engine/cuda/graph.hpp"
 #include "engine/cuda/launch.hpp"
 #include "engine/cuda/mapped_stop.hpp"
-#include "engine/cuda/mesh_sets.hpp"
 #include "engine/cuda/pinned_memory.hpp"
 #include "engine/cuda/state.hpp"
 #include "engine/cuda/upload.hpp"
@@ -29,6 +28,7 @@
 #include "particles/placed_frame.hpp"
 #include "pipeline/cuda_particle_check.hpp"
 #include "pipeline/cuda_pipeline.hpp"
+#include "pipeline/cuda_mesh_sets.hpp"
 
 namespace meniscus::cuda {
 

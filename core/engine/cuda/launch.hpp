@@ -13,6 +13,13 @@ inline constexpr unsigned block_threads = 256;
 inline constexpr unsigned warp_threads = 32;
 inline constexpr unsigned block_warps = block_threads / warp_threads;
 
+/// The number of multiprocessors of a device.
+inline unsigned processors_of(int device) {
+    int processors = 0;
+    check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), "cudaDeviceGetAttribute");
+    return static_cast<unsigned>(std::max(1, processors));
+}
+
 /// Launches kernels on a stream.
 struct Launcher {
     cudaStream_t stream = nullptr;

@@ -10,12 +10,14 @@
 
 #include "engine/block_state.hpp"
 #include "engine/cuda/capacities.hpp"
+#include "engine/cuda/kept_lattice.hpp"
 #include "engine/cuda/scans.hpp"
 #include "field/lattice_settings.hpp"
 #include "lattice/blocks.hpp"
 #include "lattice/level_sets.hpp"
 #include "lattice/tables/tables.hpp"
 #include "meniscus/mesh.hpp"
+#include "meniscus/surface_lattice.hpp"
 #include "particles/attributes.hpp"
 #include "particles/neighbor_bricks.hpp"
 #include "particles/particle_key.hpp"
@@ -131,6 +133,7 @@ struct State : BlockState<Pointer> {
 
     // An element for every particle. A level's particles lie together, levels in ascending order; ParticleSetView
     // explains the other members.
+    bool keeps_lattice = false;
     SortKey* keys = nullptr;  ///< level, ParticleKey::cell and ParticleKey::place of each, in one number
     SortKey* unsorted_keys = nullptr;
     std::uint32_t* order = nullptr;  ///< index of each in the frame, in the order of support cells
@@ -196,6 +199,10 @@ struct State : BlockState<Pointer> {
         take("counts", counts, 1);
         take("cube_table", cube_table, cube_case_count);
         take("crack_table", crack_table, crack_case_count);
+    // Only where the lattice is kept:
+    LatticeBlock* lattice_blocks = nullptr;
+    KeptBlock* kept_blocks = nullptr;  ///< beside each of those
+    KeptBrick* kept_bricks = nullptr;
         take("scratch", scratch, scratch_bytes);
         take("keys", keys, n);
         take("unsorted_keys", unsorted_keys, n);
@@ -255,6 +262,10 @@ struct State : BlockState<Pointer> {
     /// Copies the tables to the device; the arrays have their places.
     void upload_tables(cudaStream_t stream) const {
         check(cudaMemcpyAsync(const_cast<CubeCase*>(cube_table), meniscus::cube_table.data(), sizeof(CubeTable),
+        const std::uint64_t kept = keeps_lattice ? capacity[Resource::lattice_blocks] : 0;
+        take("lattice_blocks", lattice_blocks, kept);
+        take("kept_blocks", kept_blocks, kept);
+        take("kept_bricks", kept_bricks, keeps_lattice ? capacity[Resource::bricks] : 0);
                               cudaMemcpyHostToDevice, stream),
               "cudaMemcpyAsync");
         check(cudaMemcpyAsync(const_cast<CrackCase*>(crack_table), meniscus::crack_table.data(), sizeof(CrackTable),

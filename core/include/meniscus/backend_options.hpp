@@ -41,7 +41,7 @@ struct BackendOptions {
     /// The most work of a frame, as a multiple of that of as many particles that are evenly spread
     /// (core/README.md#work-20-and-1024); a frame beyond it is refused with LimitExceeded. 0: no limit.
     double work_limit = 0.0;
-    /// Whether meshes come with Mesh::lattice, which the lattice codecs need. The CPU backend alone has it.
+    /// Whether meshes come with Mesh::lattice, which the lattice codecs need, and can be packed on a GPU.
     bool keep_lattice = false;
     std::shared_ptr<const StopFlag> stop = {};             ///< ends a reconstruction with Stopped; none: nothing does
     std::shared_ptr<SharedMemory> shared_memory{};         ///< shared by all reconstructors; may be null
