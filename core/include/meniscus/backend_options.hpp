@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "meniscus/described.hpp"
@@ -48,6 +50,9 @@ struct BackendOptions {
     std::shared_ptr<SharedMemory> shared_device_memory{};  ///< shared by all on that GPU; may be null
     /// Pins the arrays into which meshes come down from a GPU. Null: a page_pinning() of the reconstructor's own.
     std::shared_ptr<PagePinning> pinning{};
+    /// Called, once in a reconstruction's life, where a GPU must do without something that makes it faster, with what
+    /// and why. Meshes are the same. None: nobody is told.
+    std::function<void(const std::string& what)> notice{};
 
     /// Those that C, Python and files set by name.
     template <class Visit>
