@@ -69,11 +69,6 @@ CodedRange::CodedRange(const CodedAttribute& form, std::size_t component)
       steps_(static_cast<double>((1U << form.bits) - 1)),
       steps_per_unit_(extent_ > 0.0 ? steps_ / extent_ : 0.0) {}
 
-std::uint32_t CodedRange::number(float value) const {
-    // In this order NaN is the lower end.
-    return static_cast<std::uint32_t>(std::min(std::max(0.0, (value - minimum_) * steps_per_unit_ + 0.5), steps_));
-}
-
 float CodedRange::value(std::uint32_t number) const {
     return static_cast<float>(minimum_ + number * extent_ / steps_);
 }

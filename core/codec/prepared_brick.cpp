@@ -6,6 +6,7 @@
 #include "codec/normal_rounding.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/packed_bricks.hpp"
 
 namespace meniscus {
 
@@ -22,7 +23,7 @@ PreparedBrick::PreparedBrick(const Mesh& mesh, std::size_t brick, const CodingOp
     }
     if (mesh.lattice.bricks.size() != mesh.bricks.size())
         throw InvalidInput("codec is " + std::string(name_of(options.codec)) +
-                           ", but the mesh has no lattice: reconstruct it on the CPU with keep_lattice, or use Draco");
+                           ", but the mesh has no lattice: reconstruct it with keep_lattice, or use Draco");
     check_normal_bits(options.normal_bits);
     scratch_ = &scratch;
     charge(0);
@@ -31,7 +32,11 @@ PreparedBrick::PreparedBrick(const Mesh& mesh, std::size_t brick, const CodingOp
     charge(scratch.lattice->vertices());
 }
 
-void PreparedBrick::charge(std::size_t vertices) {
+PreparedBrick::PreparedBrick(PackedBricks& packed, std::size_t brick, const CodingOptions& options,
+                             BrickScratch& scratch)
+    : options_(options), scratch_(&scratch), packed_(&packed), brick_(brick) {}
+
+void PreparedBrick::charge(std::size_t vertices) const {
     constexpr std::size_t coder_bytes = std::size_t{3} << 20;
     constexpr std::size_t bytes_a_vertex = 128;
     const std::size_t bytes = coder_bytes + bytes_a_vertex * vertices;
@@ -52,12 +57,20 @@ void PreparedBrick::guarded(const Work& work) const {
 }
 
 ContentHash PreparedBrick::hash() const {
+    if (packed_ != nullptr) return packed_->hash(brick_);
     return scratch_ != nullptr ? scratch_->lattice->hash() : content_.hash();
 }
 
 EncodedBrick PreparedBrick::encode() const {
     if (scratch_ == nullptr) return encode_brick(content_, options_);
     EncodedBrick encoded;
+    if (packed_ != nullptr) {
+        encoded = packed_->bring(brick_);
+        if (options_.codec == encoded.codec) return encoded;
+        charge(encoded.vertices);
+        if (!scratch_->lattice) scratch_->lattice = make_lattice_coder();
+        guarded([&](LatticeCoder& coder) { coder.load(encoded, options_); });
+    }
     guarded([&](LatticeCoder& coder) { encoded = coder.encode(options_.codec); });
     return encoded;
 }

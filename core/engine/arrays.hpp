@@ -22,7 +22,9 @@ void resize_for_overwrite(Array<T>& array, std::size_t n) {
     if (array.capacity() < n) {
         // Gives the old memory back first: nothing of it is needed, and the peak stays low.
         release(array);
-        array.reserve(with_room_to_grow(n));
+        const AccountAllocator<T> allocator = array.get_allocator();
+        const auto& account = allocator.account();
+        array.reserve(account && account->pins() ? with_pinned_room_to_grow(n, sizeof(T)) : with_room_to_grow(n));
     }
     array.resize(n);
 }

@@ -52,7 +52,7 @@ MENISCUS_HD inline int nth_bit(std::uint64_t bits, int n) {
 }
 
 /// The bits of `word` at the places of `mask`, moved together.
-inline std::uint64_t gather_bits(std::uint64_t word, std::uint64_t mask) {
+MENISCUS_HD inline std::uint64_t gather_bits(std::uint64_t word, std::uint64_t mask) {
 #if defined(__BMI2__) && !defined(__CUDACC__)
     return _pext_u64(word, mask);
 #else

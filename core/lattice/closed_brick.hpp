@@ -7,6 +7,7 @@
 #include "lattice/bits.hpp"
 #include "lattice/brick_grid.hpp"
 #include "lattice/coordinates.hpp"
+#include "lattice/host_device.hpp"
 
 namespace meniscus {
 
@@ -14,23 +15,25 @@ inline constexpr int closed_side = brick_size + 1;
 inline constexpr int closed_places = closed_side * closed_side * closed_side;
 
 /// The distance of two places one block apart along an axis.
-constexpr int closed_step(int axis) {
+MENISCUS_HD constexpr int closed_step(int axis) {
     return axis == 0 ? 1 : axis == 1 ? closed_side : closed_side * closed_side;
 }
 /// The distance to the block at steps of 0 or 1 along each axis, i = dx + 2 dy + 4 dz.
-constexpr int closed_steps(int i) {
+MENISCUS_HD constexpr int closed_steps(int i) {
     return (i & 1) * closed_step(0) + (i >> 1 & 1) * closed_step(1) + (i >> 2) * closed_step(2);
 }
-constexpr int closed_place(int x, int y, int z) {
+MENISCUS_HD constexpr int closed_place(int x, int y, int z) {
     return x * closed_step(0) + y * closed_step(1) + z * closed_step(2);
 }
-constexpr Int3 closed_coordinate(int place) {
+MENISCUS_HD constexpr Int3 closed_coordinate(int place) {
     return {place % closed_side, place / closed_side % closed_side, place / closed_step(2)};
 }
 
 /// A set of places.
 class ClosedPlaces {
 public:
+    static constexpr int words = closed_places / 64 + 2;  // pairs may reach one word further
+
     /// The blocks that a cell's points lie in.
     void add_cell(int place) {
         for (int i = 0; i < 8; i += 2) {
@@ -52,7 +55,6 @@ public:
     }
 
 private:
-    static constexpr int words = closed_places / 64 + 2;  // pairs may reach one word further
     std::uint64_t words_[words] = {};
 };
 
@@ -61,12 +63,13 @@ private:
 template <class T>
 class ClosedArray {
 public:
+    static constexpr int border = closed_steps(7);
+
     T& operator[](int place) { return elements_[place + border]; }
     const T& operator[](int place) const { return elements_[place + border]; }
     T* data() { return elements_ + border; }
 
 private:
-    static constexpr int border = closed_steps(7);
     T elements_[closed_places + 2 * border] = {};
 };
 

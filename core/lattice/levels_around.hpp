@@ -15,11 +15,17 @@ struct LevelsAround {
     int at_least[5] = {};  ///< by level, 1 to 3: the cells of at least that level; 1: those in the surface band
 
     LevelsAround() = default;
-    MENISCUS_HD LevelsAround(const BlocksView& blocks, std::uint32_t block) {
+    MENISCUS_HD LevelsAround(const BlocksView& blocks, std::uint32_t block)
+        : LevelsAround(from([&](int i) { return blocks.level_or_none(blocks.neighbor(block, offset(i))); })) {}
+    /// level_down(i): the level of the cell i steps down, 0 where there is none.
+    template <class LevelDown>
+    MENISCUS_HD static LevelsAround from(const LevelDown& level_down) {
+        LevelsAround around;
         for (int i = 0; i < 8; ++i) {
-            const int highest = blocks.level_or_none(blocks.neighbor(block, offset(i)));
-            for (int level = 1; level <= 3; ++level) at_least[level] |= (level <= highest ? 1 : 0) << i;
+            const int highest = level_down(i);
+            for (int level = 1; level <= 3; ++level) around.at_least[level] |= (level <= highest ? 1 : 0) << i;
         }
+        return around;
     }
     MENISCUS_HD bool own_is_finest() const { return (at_least[3] & 1) != 0; }
     MENISCUS_HD static constexpr Int3 offset(int i) { return {-(i & 1), -(i >> 1 & 1), -(i >> 2)}; }

@@ -15,7 +15,7 @@
 //   sample       list_corner_points, sample_list, settle_band               (cooperative); list_edge_middles, ...
 //   count        list_band, count_cells, count_cracks, scan, order_by_level_and_brick
 //   place        count_vertices, scan, require_room, place_listed; place_group for each group of attributes' numbers
-//   emit, fill   emit_cells, fill_listed, add_volumes
+//   emit, fill   emit_cells, fill_listed, add_volumes; keep_bricks
 //   Counts       -> pinned memory; the host waits
 //   PendingMesh  the mesh -> the caller's arrays                            (when they ask for it, on a stream of its
 //   own)
@@ -27,6 +27,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <string>
 #include <utility>
 
 #include "engine/growth.hpp"
@@ -43,6 +44,7 @@ FrameRun::FrameRun(const LatticeSettings& settings, const BackendOptions& option
                    const std::shared_ptr<MemoryAccount>& account, const std::shared_ptr<MemoryAccount>& device_account)
     : device_(options.device),
       stop_(options.stop),
+      notice_(options.notice),
       sets_(sets),
       areas_(areas),
       upload_(account),
@@ -51,12 +53,11 @@ FrameRun::FrameRun(const LatticeSettings& settings, const BackendOptions& option
       device_account_(device_account),
       memory_(device_, stream_.get(), device_account),
       state_(settings) {
-    int processors = 0;
-    check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device_), "cudaDeviceGetAttribute");
-    launcher_ = {stream_.get(), static_cast<unsigned>(std::max(1, processors))};
+    launcher_ = {stream_.get(), processors_of(device_), most_cooperative_blocks()};
     host_counts_.reserve(sizeof(Counts));
     state_.settings.work_limit = options.work_limit;
     state_.stop_word = stop_.word();
+    state_.keeps_lattice = options.keep_lattice;
 }
 
 ParticlesByLevel FrameRun::validate(const ParticleFrame& on_device, cudaStream_t made_on, const Settings& settings) {
@@ -104,8 +105,7 @@ void FrameRun::run_until_it_fits(const PlacedFrame& placed, const FrameArrays& a
             upload_.send_particles(arrays, placed.on_device, place.begin, stream_.get());
         upload_.send_input(placed, arrays, place.begin, state_, stream_.get());
         CapturedRun& captured = current_graph();
-        if (uses_graphs_ && !grown && settled_ && !captured.graph.is_captured())
-            captured.graph.capture(stream_.get(), [&] { enqueue(true); });
+        if (uses_graphs_ && !grown && settled_ && !captured.graph.is_captured()) capture(captured.graph);
         if (captured.graph.is_captured())
             captured.graph.launch(stream_.get());
         else
@@ -120,6 +120,17 @@ void FrameRun::run_until_it_fits(const PlacedFrame& placed, const FrameArrays& a
     settled_ = !grown;
 }
 
+void FrameRun::capture(Graph& graph) {
+    try {
+        graph.capture(stream_.get(), [&] { enqueue(true); });
+    } catch (const std::exception& error) {
+        // A graph saves time, and nothing else.
+        uses_graphs_ = false;
+        drop_graphs();
+        if (notice_) notice_(std::string("frames run without graphs: ") + error.what());
+    }
+}
+
 void FrameRun::emit_capped(int max_level, bool first) {
     areas_.with_room([&] { sets_.take(state_); });
     for (;; first = false) {
@@ -130,6 +141,7 @@ void FrameRun::emit_capped(int max_level, bool first) {
             NoClock clock;
             emit_mesh(steps, clock);
         });
+        if (state_.keeps_lattice) keep_lattice(state_, launcher_);
         fetch_counts();
         stream_.synchronize();
         require_whole_guards();
@@ -209,6 +221,7 @@ void FrameRun::enqueue(bool captured) {
         ParticleSteps<Kernel> steps(state, parts_, launcher_);
         run_pipeline(steps, clock_);
     });
+    if (state.keeps_lattice) keep_lattice(state, launcher_);
     clock_.finish();
     fetch_counts();
 }
@@ -264,6 +277,7 @@ void FrameRun::require_indexable_counts() const {
     require_indexable(needed(Resource::samples), "the surface needs", "field samples");
     require_indexable(needed(Resource::triangles), "the surface has", "triangles");
     require_indexable(needed(Resource::vertices), "the surface has", "vertices");
+    require_indexable(needed(Resource::lattice_blocks), "the surface's bricks reach", "base cells");
 }
 
 }  // namespace meniscus::cuda

@@ -11,15 +11,16 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "engine/cuda/array_memory.hpp"
 #include "engine/cuda/event_clock.hpp"
 #include "engine/cuda/graph.hpp"
 #include "engine/cuda/launch.hpp"
 #include "engine/cuda/mapped_stop.hpp"
-#include "engine/cuda/mesh_sets.hpp"
 #include "engine/cuda/pinned_memory.hpp"
 #include "engine/cuda/state.hpp"
 #include "engine/cuda/upload.hpp"
@@ -27,6 +28,7 @@
 #include "meniscus/backend_options.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "particles/placed_frame.hpp"
+#include "pipeline/cuda_mesh_sets.hpp"
 #include "pipeline/cuda_particle_check.hpp"
 #include "pipeline/cuda_pipeline.hpp"
 
@@ -75,6 +77,8 @@ private:
                            bool grown);
     /// Puts a frame's kernels on the stream, behind the upload. captured: into a graph.
     void enqueue(bool captured);
+    /// Where CUDA makes no graph, frames run without one from here on.
+    void capture(Graph& graph);
     void fetch_counts();
     /// The graph for the current set of mesh arrays; dropped if those have moved.
     CapturedRun& current_graph();
@@ -94,6 +98,7 @@ private:
 
     int device_;
     MappedStop stop_;
+    std::function<void(const std::string&)> notice_;  ///< see BackendOptions; may be none
     MeshSets& sets_;
     UploadAreas& areas_;
     // A frame that failed may have left copies under way: pinned memory outlives the stream, whose end waits for them.

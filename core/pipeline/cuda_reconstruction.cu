@@ -1,5 +1,5 @@
 // The CUDA backend: the runs of its frames (cuda_frame_run.hpp) and where their particles
-// (engine/cuda/upload_areas.hpp) and meshes lie (engine/cuda/mesh_sets.hpp).
+// (engine/cuda/upload_areas.hpp) and meshes lie (pipeline/cuda_mesh_sets.hpp).
 #include <memory>
 #include <optional>
 
@@ -99,7 +99,18 @@ private:
     }
 
     MeshDownload download(const DeviceMesh& on_device, Mesh& mesh) {
-        return sets_.download(on_device, run_.state().mesh_bricks, run_.needed(Resource::bricks), mesh);
+        const State& state = run_.state();
+        MeshOnDevice from{.mesh = on_device, .bricks = state.mesh_bricks, .lattice = {}};
+        if (state.keeps_lattice) {
+            from.lattice = {.vertices = state.vertices,
+                            .normals = on_device.normals,
+                            .blocks = state.lattice_blocks,
+                            .kept = state.kept_blocks,
+                            .bricks = state.kept_bricks,
+                            .offset_bits = on_device.offset_bits};
+            from.lattice_blocks = static_cast<std::uint32_t>(run_.needed(Resource::lattice_blocks));
+        }
+        return sets_.download(from, run_.needed(Resource::bricks), mesh);
     }
 
     int device_;

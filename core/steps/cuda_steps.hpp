@@ -69,6 +69,8 @@ void place_attributes(const State& state, const Field& field, const Launcher& la
 void emit_triangles(const State& state, const Launcher& launch);
 /// Algorithm 3: writes the crack filling.
 void fill_cracks(const State& state, const Launcher& launch);
+/// After the mesh is counted and its vertices are numbered: keeps the lattice of each brick.
+void keep_lattice(const State& state, const Launcher& launch);
 /// Adds up Counts::sixfold_volume, which must be 0.
 void measure_volume(const State& state, const Launcher& launch);
 

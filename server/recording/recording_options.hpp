@@ -47,7 +47,7 @@ struct RecordingOptions {
                .range = {.most = max_attribute_bits},
                .argument = "BITS"});
         visit("record_codec", self.codec,
-              {.help = "Codec of recorded meshes: entropy, packed or draco. A session on a GPU is recorded as draco",
+              {.help = "Codec of recorded meshes: entropy, packed or draco",
                .subject = "record codec",
                .argument = "NAME"});
         visit("record_min_frames", self.retention.min_frames,

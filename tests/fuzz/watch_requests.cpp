@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "meniscus/v1/surface_service.pb.h"
 #include "rpc/messages/codec_choice.hpp"
 #include "rpc/messages/watch_options.hpp"
@@ -18,8 +20,10 @@ void watch_requests(Bytes bytes) {
         require(
             options.format.normal_bits == 0 || (options.format.normal_bits >= 2 && options.format.normal_bits <= 16),
             "normals have bits that Draco takes");
-        require(!needs_lattice(server::codec_choice(request, false).codec),
-                "a session without a lattice has no codec that needs one");
+        const Codec codec = server::codec_choice(request).codec;
+        require(codec == Codec::draco ||
+                    std::ranges::find(request.codecs(), static_cast<int>(codec)) != request.codecs().end(),
+                "a receiver gets a codec that it names, or Draco");
     });
 }
 

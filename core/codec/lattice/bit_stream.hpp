@@ -8,16 +8,35 @@
 #include <span>
 #include <vector>
 
+#include "lattice/host_device.hpp"
+
 namespace meniscus {
 
 static_assert(std::endian::native == std::endian::little, "words are written as they lie in memory");
+
+/// The word that is being filled.
+struct BitWord {
+    std::uint64_t bits = 0;
+    int filled = 0;  ///< below 64
+
+    /// count: 0 to 64; the value has no other bits. Calls store(word) with each word that is full.
+    template <class Store>
+    MENISCUS_HD void put(std::uint64_t value, int count, const Store& store) {
+        bits |= value << filled;
+        filled += count;
+        if (filled < 64) return;
+        store(bits);
+        filled -= 64;
+        // What did not fit; a shift by 64 would be undefined.
+        bits = filled == 0 ? 0 : value >> (count - filled);
+    }
+};
 
 class BitWriter {
 public:
     void clear() {
         count_ = 0;
-        word_ = 0;
-        filled_ = 0;
+        word_ = {};
     }
     /// Makes room for this many bits.
     void reserve(std::size_t bits) {
@@ -26,27 +45,20 @@ public:
     }
     /// bits: 0 to 64; the value has no others. There must be room.
     void put(std::uint64_t value, int bits) {
-        word_ |= value << filled_;
-        filled_ += bits;
-        if (filled_ < 64) return;
-        words_[count_++] = word_;
-        filled_ -= 64;
-        // What did not fit; a shift by 64 would be undefined.
-        word_ = filled_ == 0 ? 0 : value >> (bits - filled_);
+        word_.put(value, bits, [this](std::uint64_t word) { words_[count_++] = word; });
     }
     void append_to(std::vector<std::byte>& bytes) {
-        words_[count_] = word_;
-        const std::size_t size = 8 * count_ + static_cast<std::size_t>(filled_ + 7) / 8;
+        words_[count_] = word_.bits;
+        const std::size_t size = byte_count();
         const auto* const begin = reinterpret_cast<const std::byte*>(words_.data());
         bytes.insert(bytes.end(), begin, begin + size);
     }
-    std::size_t byte_count() const { return 8 * count_ + static_cast<std::size_t>(filled_ + 7) / 8; }
+    std::size_t byte_count() const { return 8 * count_ + static_cast<std::size_t>(word_.filled + 7) / 8; }
 
 private:
     std::vector<std::uint64_t> words_ = std::vector<std::uint64_t>(64);
     std::size_t count_ = 0;
-    std::uint64_t word_ = 0;
-    int filled_ = 0;  ///< bits of word_, below 64
+    BitWord word_;
 };
 
 /// Reads zeros behind the end, and says so.

@@ -7,6 +7,8 @@
 #include <optional>
 #include <span>
 
+#include "lattice/host_device.hpp"
+
 namespace meniscus {
 
 inline constexpr unsigned lattice_version = 1;
@@ -19,11 +21,14 @@ struct BrickHeader {
 
     static constexpr std::size_t size = 2;  ///< bytes
 
-    std::array<std::byte, size> bytes() const {
+    /// The bytes, the first one lowest.
+    MENISCUS_HD std::uint32_t word() const {
         const unsigned flags = (has_entropy ? entropy : 0U) | (has_one_level ? one_level : 0U);
-        return {
-            static_cast<std::byte>(lattice_version | flags << 4),
-            static_cast<std::byte>(static_cast<unsigned>(offset_bits - 1) | static_cast<unsigned>(normal_bits) << 3)};
+        return lattice_version | flags << 4 | static_cast<unsigned>(offset_bits - 1) << 8 |
+               static_cast<unsigned>(normal_bits) << 11;
+    }
+    std::array<std::byte, size> bytes() const {
+        return {static_cast<std::byte>(word() & 0xFF), static_cast<std::byte>(word() >> 8)};
     }
     /// None for another version, and for a flag that is kept for later ones.
     static std::optional<BrickHeader> read(std::span<const std::byte> bytes) {

@@ -13,8 +13,7 @@
 #include "lattice/face_signs.hpp"
 #include "lattice/levels_around.hpp"
 #include "lattice/tables/tables.hpp"
-#include "steps/place_vertices/place_vertices.hpp"
-#include "steps/sample_field/sample_field.hpp"
+#include "steps/keep_lattice/keep_lattice.hpp"
 
 namespace meniscus {
 
@@ -88,41 +87,9 @@ public:
     template <class Middle>
     void find_edges(int place, const Middle& middle) {
         BlockMask next[3];
-        bool is_crossed = false;
-        const BlockMask own = inside[place];
-        for (int axis = 0; axis < 3; ++axis) {
-            next[axis] = inside[place + closed_step(axis)];
-            is_crossed = is_crossed || next[axis] != own;
-        }
-        if (!is_crossed && (own == 0 || own == ~BlockMask{0})) return;
-        const LevelsAround levels = around(place);
-        if (levels.own_is_finest()) {
-            for (int axis = 0; axis < 3; ++axis) edges[place].axis[axis] = own ^ shifted(own, next[axis], axis, 1);
-            return;
-        }
-        const auto look_up = [&](BlockMask points, BlockMask& of_kind) {
-            points &= ~(corners[place] | middles[place] | quarters[place]);
-            if (points == 0) return;
-            of_kind |= points;
-            inside[place] |= middle(points);
-        };
-        if (levels.at_least[2] == 0) {
-            find_level1_edges(place, levels, next, look_up);
-            return;
-        }
-        CrossedEdges crossed[3] = {{own, next[0], levels, 0}, {own, next[1], levels, 1}, {own, next[2], levels, 2}};
-        BlockMask halving = 0;
-        BlockMask longest = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            halving |= crossed[axis].length4 << 2 * bit_step(axis) | crossed[axis].length2 << bit_step(axis);
-            longest |= crossed[axis].length4 << 2 * bit_step(axis);
-        }
-        look_up(halving, middles[place]);
-        look_up(half_edge_middles(inside[place], longest), quarters[place]);
-        for (int axis = 0; axis < 3; ++axis) {
-            crossed[axis].look_at(inside[place], next[axis]);
-            edges[place].axis[axis] = crossed[axis].finest();
-        }
+        for (int axis = 0; axis < 3; ++axis) next[axis] = inside[place + closed_step(axis)];
+        find_brick_edges(around(place), corners[place], next, middle,
+                         {inside[place], middles[place], quarters[place], edges[place]});
     }
 
     /// Numbers the vertices by block, axis and bit, and returns how many there are.
@@ -138,25 +105,6 @@ public:
     }
 
 private:
-    /// The same where level-1 edges are the only ones: they start at the block's first point.
-    template <class LookUp>
-    void find_level1_edges(int place, const LevelsAround& levels, const BlockMask (&next)[3], const LookUp& look_up) {
-        BlockMask halving = 0;
-        for (int axis = 0; axis < 3; ++axis)
-            if ((used_edges(levels, axis, 1) & (inside[place] ^ next[axis])) != 0) halving |= level1_middle(axis);
-        if (halving == 0) return;
-        look_up(halving, middles[place]);
-        look_up(half_edge_middles(inside[place], halving), quarters[place]);
-        const BlockMask signs = inside[place];
-        for (int axis = 0; axis < 3; ++axis) {
-            if ((halving & level1_middle(axis)) == 0) continue;
-            const int step = bit_step(axis);
-            const int half = ((signs ^ signs >> 2 * step) & 1) != 0 ? 0 : 2 * step;
-            const int finest = ((signs >> half ^ signs >> (half + step)) & 1) != 0 ? half : half + step;
-            edges[place].axis[axis] = BlockMask{1} << finest;
-        }
-    }
-
     ClosedArray<std::uint32_t> around_;  ///< byte l: the cells of level l or more, as LevelsAround has them
     std::vector<std::uint16_t> cells_;
     std::vector<std::uint16_t> blocks_;

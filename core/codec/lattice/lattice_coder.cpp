@@ -39,7 +39,24 @@ public:
             brick_.attributes.push_back(coded_values(attribute_of(mesh, form), form, vertices_));
     }
 
-    std::size_t vertices() const override { return vertices_.size(); }
+    void load(const EncodedBrick& packed, const CodingOptions& options) override {
+        brick_.clear();
+        coordinate_ = packed.coordinate;
+        triangles_ = packed.triangles;
+        options_ = &options;
+        const auto header = BrickHeader::read(packed.data);
+        if (!header || header->has_entropy) throw InvalidInput("the brick is not packed");
+        const std::vector<std::size_t> attribute_bytes = coded_bytes(options.attributes);
+        const char* const fault = read_packed(*header, std::span(packed.data).subspan(BrickHeader::size),
+                                              {.vertices = packed.vertices,
+                                               .triangles = packed.triangles,
+                                               .offset_bits = header->offset_bits,
+                                               .attribute_bytes = attribute_bytes},
+                                              brick_);
+        if (fault != nullptr) throw InvalidInput(std::string("the packed brick ") + fault);
+    }
+
+    std::size_t vertices() const override { return brick_.offsets.size(); }
 
     ContentHash hash() const override {
         ContentHasher hasher;
@@ -78,8 +95,7 @@ public:
 
     DecodedBrick decode(const EncodedBrick& encoded, const LatticePosition& origin, std::uint32_t offset_bits,
                         std::span<const CodedAttribute> attributes) override {
-        std::vector<std::size_t> attribute_bytes;
-        for (const CodedAttribute& form : attributes) attribute_bytes.push_back(form.coded_bytes());
+        const std::vector<std::size_t> attribute_bytes = coded_bytes(attributes);
         const auto header = BrickHeader::read(encoded.data);
         if (header && header->has_entropy != (encoded.codec == Codec::lattice_entropy))
             throw InvalidInput("has the bytes of another codec than it names");
@@ -112,6 +128,11 @@ public:
     }
 
 private:
+    static std::vector<std::size_t> coded_bytes(std::span<const CodedAttribute> attributes) {
+        std::vector<std::size_t> bytes;
+        for (const CodedAttribute& form : attributes) bytes.push_back(form.coded_bytes());
+        return bytes;
+    }
     void take_lattice(std::span<const LatticeBlock> blocks) {
         BrickLattice& lattice = brick_.lattice;
         for (const LatticeBlock& block : blocks)
@@ -129,26 +150,16 @@ private:
     }
     void take_vertices(const Mesh& mesh, std::span<const LatticeBlock> blocks) {
         BrickLattice& lattice = brick_.lattice;
-        const std::uint32_t steps = (1U << mesh.offset_bits) - 1;
         vertices_.clear();
         for (const LatticeBlock& block : blocks) {
             lattice.find_edges(block.place, [&](BlockMask middles) { return block.inside & middles; });
             lattice.first_vertex[block.place] = static_cast<std::uint32_t>(vertices_.size());
-            std::uint32_t first = block.first_vertex;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                // The brick's own vertices among all that the block has: a neighboring brick may have more.
-                const BlockMask all = block.edges[axis];
-                const BlockMask own = lattice.edges[block.place].axis[axis];
-                for (BlockMask left = own; left != 0; left &= left - 1) {
-                    const BlockMask before = (left & (~left + 1)) - 1;
-                    const std::uint32_t vertex = first + static_cast<std::uint32_t>(popcount(all & before));
+            for_each_brick_vertex(
+                block.edges, block.first_vertex, lattice.edges[block.place], [&](int axis, std::uint32_t vertex) {
                     vertices_.push_back(vertex);
-                    brick_.offsets.push_back(static_cast<std::uint8_t>(round_position(
-                        static_cast<std::uint16_t>(static_cast<std::uint32_t>(mesh.vertices[vertex][axis]) & steps),
-                        mesh.offset_bits, static_cast<std::uint32_t>(brick_.offset_bits))));
-                }
-                first += static_cast<std::uint32_t>(popcount(all));
-            }
+                    brick_.offsets.push_back(
+                        edge_offset(mesh.vertices[vertex], axis, mesh.offset_bits, brick_.offset_bits));
+                });
         }
         if (brick_.normal_bits == 0) return;
         const Octahedron octahedron(brick_.normal_bits);

@@ -17,6 +17,8 @@ public:
     /// Takes a brick's content out of a mesh that has its lattice. Options as for encode_brick(); they stay until
     /// hash().
     virtual void load(const Mesh& mesh, std::size_t brick, const CodingOptions& options) = 0;
+    /// The same out of a packed brick. Throws InvalidInput for bytes that are none.
+    virtual void load(const EncodedBrick& packed, const CodingOptions& options) = 0;
     /// Vertices of the content loaded last.
     virtual std::size_t vertices() const = 0;
     /// Of that content.

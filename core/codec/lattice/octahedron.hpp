@@ -8,12 +8,14 @@
 #include <cmath>
 #include <cstdint>
 
+#include "lattice/host_device.hpp"
+
 namespace meniscus {
 
 /// Each of the two numbers takes `bits` bits, 2 to 16.
 class Octahedron {
 public:
-    explicit Octahedron(int bits) : center_((1 << (bits - 1)) - 1) {}
+    MENISCUS_HD explicit Octahedron(int bits) : center_((1 << (bits - 1)) - 1) {}
 
     /// The sum of the magnitudes of a point's coordinates.
     int radius() const { return center_; }
@@ -22,7 +24,7 @@ public:
     using Point = std::array<int, 3>;
 
     /// The point nearest to a vector's direction, about; any point for a vector of zeros.
-    Point point(const std::array<float, 3>& vector) const {
+    MENISCUS_HD Point point(const std::array<float, 3>& vector) const {
         const double x = vector[0];
         const double y = vector[1];
         const double z = vector[2];
@@ -41,7 +43,7 @@ public:
     }
     /// Its two numbers, the first in the lower 16 bits. Several pairs stand for one point where the surface was cut
     /// open; this is the one of them that is used.
-    std::uint32_t code(const Point& p) const {
+    MENISCUS_HD std::uint32_t code(const Point& p) const {
         const int last = 2 * center_;
         int s;
         int t;

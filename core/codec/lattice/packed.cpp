@@ -1,11 +1,10 @@
 #include "codec/lattice/packed.hpp"
 
 #include "codec/lattice/brick_mesh.hpp"
+#include "codec/lattice/packed_fields.hpp"
 
 namespace meniscus {
 namespace {
-
-constexpr int level_bits = 2;
 
 void write_cells(const BrickLattice& lattice, int only_level, BitWriter& bits) {
     std::uint64_t rows[brick_size][brick_size] = {};
@@ -59,27 +58,18 @@ void write_packed(const LatticeBrick& brick, BitWriter& bits, std::vector<std::b
     bits.clear();
     write_cells(lattice, only_level, bits);
     bits.reserve(64 * lattice.blocks().size());
-    for (const std::uint16_t place : lattice.blocks()) {
-        const BlockMask corners = lattice.corners[place];
-        if (corners == ~BlockMask{0})
-            bits.put(lattice.inside[place], 64);
-        else
-            bits.put(gather_bits(lattice.inside[place], corners), popcount(corners));
-    }
+    for (const std::uint16_t place : lattice.blocks()) put_signs(lattice.inside[place], lattice.corners[place], bits);
     bits.reserve(6 * lattice.cells().size());
     lattice.for_each_outer_face([&](int place, int bit) { bits.put(lattice.coarser[place] >> bit & 1, 1); });
     const std::uint8_t* offset = brick.offsets.data();
     bits.reserve(64 * lattice.blocks().size() + static_cast<std::size_t>(brick.offset_bits) * brick.offsets.size());
     for (const std::uint16_t place : lattice.blocks()) {
         for (const BlockMask points : {lattice.middles[place], lattice.quarters[place]})
-            if (points != 0) bits.put(gather_bits(lattice.inside[place], points), popcount(points));
+            put_signs(lattice.inside[place], points, bits);
         for (int left = lattice.edges[place].count(); left > 0; --left) bits.put(*offset++, brick.offset_bits);
     }
     bits.reserve(static_cast<std::size_t>(2 * brick.normal_bits) * brick.normals.size());
-    for (const std::uint32_t normal : brick.normals) {
-        bits.put(normal & 0xFFFF, brick.normal_bits);
-        bits.put(normal >> 16, brick.normal_bits);
-    }
+    for (const std::uint32_t normal : brick.normals) put_normal(normal, brick.normal_bits, bits);
     bits.append_to(out);
     for (const std::vector<std::byte>& values : brick.attributes) out.insert(out.end(), values.begin(), values.end());
 }

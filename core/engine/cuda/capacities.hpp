@@ -24,9 +24,10 @@ enum class Resource : std::uint8_t {
     blocks,
     samples,
     vertices,
-    triangles
+    triangles,
+    lattice_blocks  ///< blocks of the closed bricks, where the lattice is kept
 };
-inline constexpr std::size_t resource_count = 10;
+inline constexpr std::size_t resource_count = 11;
 
 /// Elements are numbered with 32 bits, and so are the words of all bricks: a frame that needs as many or more is
 /// refused. Boxes are no arrays, and may be as large as the world.
@@ -62,10 +63,10 @@ struct Capacities {
 
     /// Whether all arrays but the mesh's have the same room. The first three resources have no arrays.
     bool same_but_for_mesh(const Capacities& other) const {
-        static_assert(static_cast<std::size_t>(Resource::vertices) == resource_count - 2 &&
-                      static_cast<std::size_t>(Resource::triangles) == resource_count - 1);
         constexpr auto first = static_cast<std::ptrdiff_t>(Resource::particle_bricks);
-        return particles == other.particles && std::equal(of.begin() + first, of.end() - 2, other.of.begin() + first);
+        constexpr auto end = static_cast<std::ptrdiff_t>(Resource::vertices);
+        return particles == other.particles &&
+               std::equal(of.begin() + first, of.begin() + end, other.of.begin() + first);
     }
 
 private:
@@ -74,6 +75,8 @@ private:
                                   const unsigned long long (&needed)[resource_count]) {
         if (r == Resource::reached_bricks) return particles / 8;  // most frames need fewer; 20 bytes each
         if (r == Resource::samples) return needed[static_cast<std::size_t>(Resource::blocks)];  // each has one at least
+        // A uniform surface has some 13 triangles a block; an adaptive one, fewer.
+        if (r == Resource::lattice_blocks) return needed[static_cast<std::size_t>(Resource::triangles)] / 12;
         return 0;
     }
     /// Grows one capacity to the need and an eighth more, the latter only up to `most`; returns whether there was too

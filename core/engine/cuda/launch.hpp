@@ -13,10 +13,18 @@ inline constexpr unsigned block_threads = 256;
 inline constexpr unsigned warp_threads = 32;
 inline constexpr unsigned block_warps = block_threads / warp_threads;
 
+/// The number of multiprocessors of a device.
+inline unsigned processors_of(int device) {
+    int processors = 0;
+    check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), "cudaDeviceGetAttribute");
+    return static_cast<unsigned>(std::max(1, processors));
+}
+
 /// Launches kernels on a stream.
 struct Launcher {
     cudaStream_t stream = nullptr;
-    unsigned processors = 1;  ///< multiprocessors of the stream's device
+    unsigned processors = 1;        ///< multiprocessors of the stream's device
+    unsigned most_cooperative = 0;  ///< see most_cooperative_blocks()
 
     /// Launches a kernel for up to `elements` elements, `a_block` of them in a block at a time.
     template <class... Parameters, class... Arguments>
@@ -32,8 +40,18 @@ struct Launcher {
     /// its whole grid.
     template <class... Parameters, class... Arguments>
     void cooperative(std::uint64_t elements, void (*kernel)(Parameters...), const Arguments&... arguments) const {
-        const std::uint64_t most = std::uint64_t{processors} * blocks_of_processor(kernel);
+        std::uint64_t most = std::uint64_t{processors} * blocks_of_processor(kernel);
+        if (most_cooperative != 0) most = std::min<std::uint64_t>(most, most_cooperative);
         launch(blocks_for(elements, block_threads, most), true, kernel, arguments...);
+    }
+
+    /// Asks for as much of a multiprocessor's memory as can be shared memory, of which this kernel's blocks use most:
+    /// else the driver guesses how many of them shall have room.
+    template <class... Parameters>
+    void prefer_shared_memory(void (*kernel)(Parameters...)) const {
+        check(cudaFuncSetAttribute(reinterpret_cast<const void*>(kernel),
+                                   cudaFuncAttributePreferredSharedMemoryCarveout, cudaSharedmemCarveoutMaxShared),
+              "cudaFuncSetAttribute");
     }
 
     /// Number of threads of a kernel that run at once on the whole device.

@@ -6,15 +6,12 @@
 
 namespace meniscus::cuda {
 
-/// A thread's side of a long loop. The flag lies in the host's memory, where reading it costs microseconds: the grid's
-/// first thread reads it as it begins, which is in time for kernels that take little, and all read it every few
-/// milliseconds after that. A thread that finds it raised sets Counts::stop, so that no later kernel finds anything to
-/// do.
+/// A thread's side of a long loop. The flag lies in the host's memory, where reading it costs microseconds: a frame
+/// reads it once, see stop_where_asked(), and threads of kernels that take longer every few milliseconds. A thread that
+/// finds it raised sets Counts::stop, so that no later kernel finds anything to do.
 class LongLoop {
 public:
-    __device__ explicit LongLoop(const State& state) : state_(state), asked_at_(clock_now()) {
-        if (blockIdx.x == 0 && threadIdx.x == 0) asked_at_ -= clocks_between;
-    }
+    __device__ explicit LongLoop(const State& state) : state_(state), asked_at_(clock_now()) {}
 
     /// Asked before every element: whether to go on with it.
     __device__ bool goes_on() {
@@ -39,5 +36,10 @@ private:
     const State& state_;
     unsigned asked_at_;
 };
+
+/// By the one thread of a kernel.
+__device__ inline void stop_where_asked(const State& state) {
+    if (state.stop_word != nullptr && *state.stop_word != 0) state.counts->stop = Stop::asked_for;
+}
 
 }  // namespace meniscus::cuda

@@ -11,8 +11,8 @@ namespace meniscus::cuda {
 
 __extension__ using SortKey = unsigned __int128;
 
-/// Number of triangles by level.
-struct LevelCounts {
+/// Number of triangles by level. Loaded and stored as one word of 16 bytes.
+struct alignas(16) LevelCounts {
     std::uint32_t of[4];
     MENISCUS_HD friend LevelCounts operator+(const LevelCounts& a, const LevelCounts& b) {
         return {{a.of[0] + b.of[0], a.of[1] + b.of[1], a.of[2] + b.of[2], a.of[3] + b.of[3]}};

@@ -10,12 +10,14 @@
 
 #include "engine/block_state.hpp"
 #include "engine/cuda/capacities.hpp"
+#include "engine/cuda/kept_lattice.hpp"
 #include "engine/cuda/scans.hpp"
 #include "field/lattice_settings.hpp"
 #include "lattice/blocks.hpp"
 #include "lattice/level_sets.hpp"
 #include "lattice/tables/tables.hpp"
 #include "meniscus/mesh.hpp"
+#include "meniscus/surface_lattice.hpp"
 #include "particles/attributes.hpp"
 #include "particles/neighbor_bricks.hpp"
 #include "particles/particle_key.hpp"
@@ -51,6 +53,18 @@ enum class List : std::uint8_t {
 };
 inline constexpr std::size_t list_count = 7;
 
+/// Kernels that find out how much room a frame needs; see State::require_room_at_end().
+enum class RoomFinder : std::uint8_t {
+    support_cells,
+    particles,
+    blocks,
+    base_samples,
+    corner_samples,
+    middle_samples,
+    half_edge_samples,
+};
+inline constexpr std::size_t room_finder_count = 7;
+
 /// Why the kernels of a frame do nothing more.
 enum class Stop : std::uint32_t {
     none,
@@ -81,6 +95,7 @@ struct Counts {
     std::uint32_t reached_size[3];   ///< its bricks a side
     std::uint32_t boxed_blocks;      ///< number of thread blocks whose particles the boxes hold
     Counter needed[resource_count];  ///< elements that the frame needs of each resource
+    std::uint32_t ended_blocks[room_finder_count];  ///< number of thread blocks of each kernel that are at its end
     Counter field_evaluations;
     Counter triangles[triangle_level_count];  ///< number of triangles of each level
     Counter sixfold_volume;                   ///< six times the volume of the mesh, see steps/fill_cracks/volume.hpp
@@ -118,6 +133,7 @@ using Pointer = T*;
 struct State : BlockState<Pointer> {
     LatticeSettings settings;
     Capacities capacity;
+    bool keeps_lattice = false;
     std::uint64_t payload_bytes = 0;  ///< most bytes that a frame's payload has had so far
     AttributeShape attributes;
     FrameInput* input = nullptr;
@@ -183,6 +199,10 @@ struct State : BlockState<Pointer> {
     Normal* normals = nullptr;
     Triangle* triangles = nullptr;
     std::byte* vertex_attributes[max_particle_arrays] = {};
+    // Only where the lattice is kept:
+    LatticeBlock* lattice_blocks = nullptr;
+    KeptBlock* kept_blocks = nullptr;  ///< beside each of those
+    KeptBrick* kept_bricks = nullptr;
 
     explicit State(const LatticeSettings& lattice_settings) : BlockState{}, settings(lattice_settings) {}
 
@@ -242,6 +262,10 @@ struct State : BlockState<Pointer> {
         take("triangles", triangles, capacity[Resource::triangles]);
         for (std::uint32_t a = 0; a < attributes.arrays; ++a)
             take("vertex_attributes", vertex_attributes[a], attributes.vertex_bytes[a] * capacity[Resource::vertices]);
+        const std::uint64_t kept = keeps_lattice ? capacity[Resource::lattice_blocks] : 0;
+        take("lattice_blocks", lattice_blocks, kept);
+        take("kept_blocks", kept_blocks, kept);
+        take("kept_bricks", kept_bricks, keeps_lattice ? capacity[Resource::bricks] : 0);
     }
 
     /// The arrays in the form that ArrayMemory takes.
@@ -269,10 +293,20 @@ struct State : BlockState<Pointer> {
         return goes_on() ? static_cast<std::uint32_t>(counts->needed[static_cast<int>(r)]) : 0;
     }
     __device__ std::uint32_t listed(List l) const { return goes_on() ? counts->listed[static_cast<int>(l)] : 0; }
-    /// Notes the number of elements that are needed, and stops the frame where there is no room; called by one thread.
+    /// Notes the number of elements that are needed, and stops the frame where there is no room; called by one thread,
+    /// once all blocks of the grid have begun: no kernel reads a stop at its begin that it may set itself.
     __device__ void need(Resource r, std::uint64_t number) const {
         counts->needed[static_cast<int>(r)] = number;
         if (goes_on() && (number > capacity[r] || number >= too_many(r))) counts->stop = Stop::too_little_room;
+    }
+
+    /// The same for the number in Counts::needed, by all threads of a kernel as they end: its last block does it.
+    __device__ void require_room_at_end(RoomFinder kernel, Resource r) const {
+        __syncthreads();
+        if (threadIdx.x != 0) return;
+        __threadfence();
+        if (atomicAdd(&counts->ended_blocks[static_cast<int>(kernel)], 1U) != gridDim.x - 1) return;
+        need(r, *const_cast<volatile Counter*>(&counts->needed[static_cast<int>(r)]));
     }
 
     __device__ std::uint32_t particle_count() const { return goes_on() ? input->particles : 0; }

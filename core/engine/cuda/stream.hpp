@@ -1,6 +1,7 @@
 // A CUDA stream and events in it, destroyed with their owner.
 #pragma once
 
+#include <chrono>
 #include <utility>
 
 #include "engine/cuda/errors.hpp"
@@ -40,12 +41,22 @@ protected:
     cudaEvent_t event_ = nullptr;
 };
 
-/// A thread that waits for it sleeps rather than to keep a core busy, which others need for encoding. The GPU
-/// interrupts the host for it, waited for or not, so that events which measure alone are none.
+/// A thread that waits for it asks for a while, since to be woken takes tens of microseconds; then it sleeps rather
+/// than to keep a core busy, which others need for encoding. The GPU interrupts the host for it, waited for or not, so
+/// that events which measure alone are none.
 class AwaitedEvent : public Event {
 public:
     AwaitedEvent() : Event(cudaEventBlockingSync) {}
-    void wait() { check(cudaEventSynchronize(event_), "cudaEventSynchronize"); }
+    void wait() {
+        const auto sleeps_at = std::chrono::steady_clock::now() + std::chrono::microseconds(100);
+        do {
+            const cudaError_t status = cudaEventQuery(event_);
+            if (status == cudaSuccess) return;
+            if (status != cudaErrorNotReady) check(status, "cudaEventQuery");
+            cudaGetLastError();  // else the next call in this thread would be taken for one that failed
+        } while (std::chrono::steady_clock::now() < sleeps_at);
+        check(cudaEventSynchronize(event_), "cudaEventSynchronize");
+    }
 };
 
 class Stream {

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "meniscus/described.hpp"
@@ -41,13 +43,16 @@ struct BackendOptions {
     /// The most work of a frame, as a multiple of that of as many particles that are evenly spread
     /// (core/README.md#work-20-and-1024); a frame beyond it is refused with LimitExceeded. 0: no limit.
     double work_limit = 0.0;
-    /// Whether meshes come with Mesh::lattice, which the lattice codecs need. The CPU backend alone has it.
+    /// Whether meshes come with Mesh::lattice, which the lattice codecs need, and can be packed on a GPU.
     bool keep_lattice = false;
     std::shared_ptr<const StopFlag> stop = {};             ///< ends a reconstruction with Stopped; none: nothing does
     std::shared_ptr<SharedMemory> shared_memory{};         ///< shared by all reconstructors; may be null
     std::shared_ptr<SharedMemory> shared_device_memory{};  ///< shared by all on that GPU; may be null
     /// Pins the arrays into which meshes come down from a GPU. Null: a page_pinning() of the reconstructor's own.
     std::shared_ptr<PagePinning> pinning{};
+    /// Called, once in a reconstruction's life, where a GPU must do without something that makes it faster, with what
+    /// and why. Meshes are the same. None: nobody is told.
+    std::function<void(const std::string& what)> notice{};
 
     /// Those that C, Python and files set by name.
     template <class Visit>

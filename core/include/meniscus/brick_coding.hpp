@@ -64,6 +64,7 @@ struct EncodedBrick {
 };
 
 class LatticeCoder;
+class PackedBricks;
 
 /// Memory that bricks are prepared and encoded in, kept from brick to brick: for Draco at most 24 bytes for each
 /// triangle of the largest, for the lattice codecs 3 MB and 128 bytes for each vertex of the largest. It serves one
@@ -90,19 +91,24 @@ public:
     /// The mesh, the options and the scratch memory must stay, and the latter be left alone. Throws as brick_content(),
     /// and InvalidInput for a lattice codec where the mesh has no lattice.
     PreparedBrick(const Mesh& mesh, std::size_t brick, const CodingOptions& options, BrickScratch& scratch);
-    /// Equal for equal content. It is not the same for Draco and for the lattice codecs.
+    /// The same of bricks that a GPU has packed with these options, which must stay, too.
+    PreparedBrick(PackedBricks& packed, std::size_t brick, const CodingOptions& options, BrickScratch& scratch);
+    /// Equal for equal content. It is not the same for Draco, for the lattice codecs, and for what a GPU has packed.
     ContentHash hash() const;
+    /// Brings the brick down from a GPU. Throws DeviceError where that fails.
     EncodedBrick encode() const;
 
 private:
     const CodingOptions& options_;
     /// Charges the scratch memory's account for a brick of a lattice codec.
-    void charge(std::size_t vertices);
+    void charge(std::size_t vertices) const;
     /// Drops the coder if the work with it throws.
     template <class Work>
     void guarded(const Work& work) const;
 
-    BrickScratch* scratch_ = nullptr;  ///< its coder has loaded the brick; none: `content_` is the brick
+    BrickScratch* scratch_ = nullptr;  ///< its coder has loaded the brick, or loads what comes down; none: `content_`
+    PackedBricks* packed_ = nullptr;   ///< those of a GPU; none: the host has the brick
+    std::size_t brick_ = 0;
     BrickContent content_;
 };
 

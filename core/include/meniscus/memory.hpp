@@ -76,6 +76,9 @@ public:
         if (pinning_ && bytes >= PagePinning::least_bytes) pinning_->unpin(array);
     }
 
+    /// Whether large arrays are pinned.
+    bool pins() const noexcept { return pinning_ != nullptr; }
+
     std::size_t bytes() const noexcept { return bytes_.load(std::memory_order_relaxed); }
     std::size_t peak_bytes() const noexcept { return peak_.load(std::memory_order_relaxed); }
     std::uint64_t allocations() const noexcept { return allocations_.load(std::memory_order_relaxed); }

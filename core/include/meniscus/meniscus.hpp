@@ -15,6 +15,7 @@
 #include "meniscus/mesh_hash.hpp"
 #include "meniscus/mesh_normals.hpp"
 #include "meniscus/names.hpp"
+#include "meniscus/packed_bricks.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/reconstructor.hpp"
 #include "meniscus/settings.hpp"

@@ -94,7 +94,7 @@ struct Mesh {
     std::vector<MeshAttribute> attributes;                     ///< attributes that the settings name, in that order
     Array<Point> spray;  ///< places of the particles left out of the surface, in no order of the frame's; Spray::points
 
-    SurfaceLattice lattice;  ///< empty unless BackendOptions::keep_lattice asks for it, and on a GPU
+    SurfaceLattice lattice;  ///< empty unless BackendOptions::keep_lattice asks for it
 
     /// World position of a lattice position of this mesh: exact product in double, one rounding.
     std::array<double, 3> world(const LatticePosition& p) const {

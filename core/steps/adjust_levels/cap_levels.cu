@@ -10,7 +10,8 @@ namespace {
 __global__ void count_anew(const __grid_constant__ State state) {
     if (blockIdx.x != 0 || threadIdx.x != 0) return;
     Counts& counts = *state.counts;
-    for (const Resource r : {Resource::vertices, Resource::triangles}) counts.needed[static_cast<int>(r)] = 0;
+    for (const Resource r : {Resource::vertices, Resource::triangles, Resource::lattice_blocks})
+        counts.needed[static_cast<int>(r)] = 0;
     for (const List l : {List::vertices, List::band, List::cracks}) counts.listed[static_cast<int>(l)] = 0;
     for (std::size_t level = 0; level < triangle_level_count; ++level) counts.triangles[level] = 0;
     for (std::uint32_t& cells : counts.band_cells) cells = 0;

@@ -35,14 +35,13 @@ __global__ void __launch_bounds__(block_threads) list_band(const __grid_constant
 __global__ void __launch_bounds__(block_threads) count_cells(const __grid_constant__ State state) {
     __shared__ std::uint8_t triangles[cube_case_count];
     __shared__ WarpSigns all_signs[block_warps];
-    __shared__ Counter total[3];
-    if (threadIdx.x < 3) total[threadIdx.x] = 0;
     static_assert(block_threads == cube_case_count);
     triangles[threadIdx.x] = state.cube_table[threadIdx.x].triangles;
     __syncthreads();
     WarpSigns& signs = all_signs[warp_in_block()];
     const BlocksView blocks = state.blocks();
     const std::uint32_t band = same_in_all_lanes(state.listed(List::band));
+    Counter total[3] = {};  // of this lane's cells, by level
     each_by_warp((band + closed_cells_a_warp - 1) / closed_cells_a_warp, [&](std::uint32_t group) {
         const CellsOfLanes cells(blocks, state.band_cells, band, closed_cells_a_warp * group);
         signs.put(blocks, cells);
@@ -61,11 +60,10 @@ __global__ void __launch_bounds__(block_threads) count_cells(const __grid_consta
         const std::uint32_t own = (cell < 2 ? count[0] : count[1]) >> (cell % 2 * 16) & 0xFFFF;
         state.triangles_before[cells.block] = {};
         state.triangles_before[cells.block].of[cells.level - 1] = own;
-        atomicAdd(&total[cells.level - 1], Counter{own});
+        // By constants alone: an array that is not in registers would be in slow local memory.
+        for (int level = 1; level <= 3; ++level) total[level - 1] += cells.level == level ? own : 0;
     });
-    __syncthreads();
-    if (threadIdx.x < 3 && total[threadIdx.x] != 0)
-        atomicAdd(&state.counts->triangles[threadIdx.x], total[threadIdx.x]);
+    for (int level = 1; level <= 3; ++level) add_of_lanes(&state.counts->triangles[level - 1], total[level - 1]);
 }
 
 /// A lane finds out whether a cell has a coarser neighbor; those that have go through the warp four at a time.
@@ -113,8 +111,10 @@ __global__ void __launch_bounds__(block_threads) count_cracks(const __grid_const
                 state.cracked_cells[at] = cells.block;
                 total += count;
             }
+            // The next cells take the place of these.
+            __syncwarp();
         }
-        // The next cells take the place of these.
+        // The next cells are listed in the place of these.
         __syncwarp();
     });
     add_of_lanes(&state.counts->triangles[crack], total);

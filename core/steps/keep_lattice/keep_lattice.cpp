@@ -1,35 +1,16 @@
-// After the last step, on the CPU: the lattice behind the mesh, for the codec that sends it in place of triangles.
+// The lattice behind the mesh, kept on the CPU.
+#include "steps/keep_lattice/keep_lattice.hpp"
+
 #include <algorithm>
 #include <array>
 #include <span>
 #include <utility>
 
 #include "engine/arrays.hpp"
-#include "lattice/closed_brick.hpp"
-#include "steps/count_triangles/count_triangles.hpp"
 #include "steps/cpu_steps.hpp"
-#include "steps/fill_cracks/fill_cracks.hpp"
 
 namespace meniscus::cpu {
 namespace {
-
-int place_of(std::uint16_t index) {
-    const Int3 at = place_in_brick(index);
-    return closed_place(at.x, at.y, at.z);
-}
-
-/// Bits as in LatticeBlock::coarser, of the cell's faces on those of its brick.
-std::uint8_t coarser_beyond_brick(const BlocksView& blocks, std::uint32_t block, int level) {
-    if (level == 1) return 0;
-    const Int3 at = place_in_brick(blocks.place[block]);
-    const std::array<int, 3> coordinate{at.x, at.y, at.z};
-    unsigned faces = 0;
-    for (int face = 0; face < 6; ++face)
-        if (coordinate[static_cast<std::size_t>(face >> 1)] == (face & 1) * (brick_size - 1) &&
-            coarser_neighbor(blocks, block, level, face >> 1, face & 1) != no_index)
-            faces |= 1U << face;
-    return static_cast<std::uint8_t>(faces);
-}
 
 /// Finds the blocks of one brick after the other.
 class BrickBlocks {
@@ -42,8 +23,8 @@ public:
         for (const std::uint32_t cell : cells) {
             const ClosedCell closed(blocks_, cell);
             const int level = blocks_.level[cell];
-            if (SubcellCorners(blocks_, closed, level_stride(level)).mixed(level_stride(level)) == 0) continue;
-            const int place = place_of(blocks_.place[cell]);
+            if (!draws(blocks_, closed, level)) continue;
+            const int place = closed_place_of(blocks_.place[cell]);
             places.add_cell(place);
             for (int i = 0; i < 8; ++i) block_at_[at(place + closed_steps(i))] = closed.block[i];
             level_at_[at(place)] = static_cast<std::uint8_t>(level);
@@ -58,7 +39,8 @@ public:
             block.inside = blocks_.inside[number];
             for (std::size_t axis = 0; axis < 3; ++axis) block.edges[axis] = blocks_.edges[number].axis[axis];
             block.first_vertex = blocks_.first_vertex[number];
-            if (block.level != 0) block.coarser = coarser_beyond_brick(blocks_, number, block.level);
+            if (block.level != 0)
+                block.coarser = static_cast<std::uint8_t>(coarser_beyond_brick(blocks_, number, block.level));
         });
         return count;
     }
@@ -89,7 +71,7 @@ void keep_lattice(State& state, Mesh& mesh) {
     state.workers.for_ranges(mesh.bricks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t b = begin; b < end; ++b) {
             ClosedPlaces places;
-            for (const std::uint32_t cell : mixed_cells_of(b)) places.add_cell(place_of(blocks.place[cell]));
+            for (const std::uint32_t cell : mixed_cells_of(b)) places.add_cell(closed_place_of(blocks.place[cell]));
             lattice.bricks[b].count = places.count();
         }
     });

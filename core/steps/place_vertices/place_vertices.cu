@@ -135,8 +135,9 @@ void place_vertices(const State& state, const Field& field, const Launcher& laun
     launch(blocks, block_threads, count_vertices, state);
     exclusive_sum(state.scratch_memory(), state.first_vertex, blocks + 1, launch.stream);
     launch(1, block_threads, require_room, state);
-    launch(blocks, block_warps, state.settings.bisects ? place_listed<true, Field> : place_listed<false, Field>, state,
-           field);
+    auto* const place = state.settings.bisects ? place_listed<true, Field> : place_listed<false, Field>;
+    launch.prefer_shared_memory(place);
+    launch(blocks, block_warps, place, state, field);
     if (state.attributes.groups() != 0) place_attributes(state, field, launch);
 }
 

@@ -14,11 +14,12 @@
 namespace meniscus::cuda {
 namespace {
 
-/// One thread: a crowded frame ends here, before it takes long.
+/// One thread: a crowded frame ends here, before it takes long; and one that the host wants no more.
 __global__ void stop_if_crowded(const __grid_constant__ State state) {
-    if (blockIdx.x == 0 && threadIdx.x == 0 && state.goes_on() &&
-        is_crowded(state.counts->crowd, state.input->particles, state.settings))
+    if (blockIdx.x != 0 || threadIdx.x != 0) return;
+    if (state.goes_on() && is_crowded(state.counts->crowd, state.input->particles, state.settings))
         state.counts->stop = Stop::crowded;
+    stop_where_asked(state);
 }
 
 __global__ void __launch_bounds__(block_threads) seed_probes(const __grid_constant__ State state) {
@@ -182,8 +183,9 @@ __global__ void __launch_bounds__(block_threads) find_neighbors(const __grid_con
         const int n = static_cast<int>(i % neighbor_slots);
         state.neighbors[b].brick[n] = grid.find(state.bricks[b].coordinate + neighbor_offset(n));
         if (n == 0) state.bricks[b].first = static_cast<std::uint32_t>(state.members_before[b]);
-        if (i == 0) state.need(Resource::blocks, state.members_before[grid.brick_count]);
+        if (i == 0) state.counts->needed[static_cast<int>(Resource::blocks)] = state.members_before[grid.brick_count];
     });
+    state.require_room_at_end(RoomFinder::blocks, Resource::blocks);
 }
 
 /// One warp for every word of a brick: neighboring lanes fill neighboring blocks.

@@ -178,17 +178,17 @@ __global__ void __launch_bounds__(block_threads) store_support_cells(const __gri
                 state.counts->first_particle_brick[k] = brick + 1;
             state.first_particle[cell + 1] = n;
             state.counts->particle_cells = cell + 1;
-            state.need(Resource::particle_bricks, brick + 1);
+            state.counts->needed[static_cast<int>(Resource::particle_bricks)] = brick + 1;
         }
     });
+    state.require_room_at_end(RoomFinder::support_cells, Resource::particle_bricks);
 }
 
 /// A particle's place in the order of its level, among those of its cell by counting.
 __device__ std::uint32_t place_in_order(const State& state, std::uint32_t i, std::uint32_t begin, std::uint32_t end) {
     if (state.capacity.orders_whole_keys()) return i;
     if (end - begin > Capacities::most_counted_in_cell) {
-        // The number of the last thread stays: any such number asks for the order of whole keys.
-        state.need(Resource::cell_particles, end - begin);
+        atomicMax(&state.counts->needed[static_cast<int>(Resource::cell_particles)], Counter{end - begin});
         return i;
     }
     // In a cell, keys differ in their lower halves. Equal ones stay in their order.
@@ -222,6 +222,7 @@ __global__ void __launch_bounds__(block_threads)
         if (has_payload) state.sources[place] = state.order[i];
     });
     add_of_lanes(&state.counts->crowd, crowd);
+    state.require_room_at_end(RoomFinder::particles, Resource::cell_particles);
 }
 
 /// Sorts each run of equal keys by payload, one thread a run. Runs after stop_if_crowded, which bounds a run to about

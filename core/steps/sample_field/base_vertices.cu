@@ -20,7 +20,7 @@ __global__ void __launch_bounds__(block_threads, 3) sample_base(const __grid_con
     // Later samples are appended.
     const std::uint32_t blocks = state.count(Resource::blocks);
     if (blockIdx.x == 0 && threadIdx.x == 0) {
-        state.need(Resource::samples, blocks);
+        state.counts->needed[static_cast<int>(Resource::samples)] = blocks;
         state.counts->field_evaluations = blocks;
     }
     const std::uint32_t bricks = blocks <= state.capacity[Resource::samples] ? state.count(Resource::bricks) : 0;
@@ -52,6 +52,7 @@ __global__ void __launch_bounds__(block_threads, 3) sample_base(const __grid_con
         state.sampled[b] = 1;
         state.inside[b] = allowed && sum > state.settings.iso ? 1 : 0;
     });
+    state.require_room_at_end(RoomFinder::base_samples, Resource::samples);
 }
 
 }  // namespace

@@ -146,8 +146,6 @@ __device__ void sample_listed(const State& state, const Field& field, List list,
         }
     });
     add_of_lanes(&state.counts->field_evaluations, evaluations);
-    if (blockIdx.x == 0 && threadIdx.x == 0)
-        state.need(Resource::samples, state.counts->needed[static_cast<int>(Resource::samples)]);
 }
 
 __global__ void __launch_bounds__(block_threads, 4) list_corner_points(const __grid_constant__ State state) {
@@ -181,9 +179,10 @@ inline constexpr int blocks_of_sampling = Field::has_own_supports ? 3 : 2;
 
 template <class Field>
 __global__ void __launch_bounds__(block_threads, blocks_of_sampling<Field>)
-    sample_list(const __grid_constant__ State state, const Field field, List list) {
+    sample_list(const __grid_constant__ State state, const Field field, List list, RoomFinder kernel) {
     __shared__ ClusterSampling<Field> shared[block_warps];
     sample_listed(state, field, list, shared);
+    state.require_room_at_end(kernel, Resource::samples);
 }
 
 /// Takes the cells into the band that a neighbor's samples show to hold surface, raises those that would cut off a
@@ -196,6 +195,9 @@ __global__ void __launch_bounds__(block_threads, 2)
     settling.begin();
     while (settling.raise()) {
         sample_listed(state, field, List::later_round, shared);
+        // All blocks have begun: they have waited for each other.
+        if (blockIdx.x == 0 && threadIdx.x == 0)
+            state.need(Resource::samples, state.counts->needed[static_cast<int>(Resource::samples)]);
         Team::grid().wait();
         if (!state.goes_on()) return;
     }
@@ -206,8 +208,10 @@ __global__ void __launch_bounds__(block_threads, 2)
 template <Slivers slivers, class Field>
 void sample_field(const State& state, const Field& field, const Launcher& launch) {
     const std::uint64_t blocks = state.capacity[Resource::blocks];
+    launch.prefer_shared_memory(sample_list<Field>);
+    launch.prefer_shared_memory(settle_band<slivers, Field>);
     launch(blocks, block_threads, list_corner_points, state);
-    launch(blocks, block_warps, sample_list<Field>, state, field, List::corner_points);
+    launch(blocks, block_warps, sample_list<Field>, state, field, List::corner_points, RoomFinder::corner_samples);
     // Several threads take parts of one block's work.
     launch.cooperative(4 * blocks, settle_band<slivers, Field>, state, field);
 }
@@ -216,9 +220,10 @@ template <class Field>
 void sample_edge_middles(const State& state, const Field& field, const Launcher& launch) {
     const std::uint64_t blocks = state.capacity[Resource::blocks];
     launch(blocks, block_threads, list_edge_middles, state);
-    launch(blocks, block_warps, sample_list<Field>, state, field, List::edge_middles);
+    launch(blocks, block_warps, sample_list<Field>, state, field, List::edge_middles, RoomFinder::middle_samples);
     launch(blocks, block_threads, list_half_edge_middles, state);
-    launch(blocks, block_warps, sample_list<Field>, state, field, List::half_edge_middles);
+    launch(blocks, block_warps, sample_list<Field>, state, field, List::half_edge_middles,
+           RoomFinder::half_edge_samples);
 }
 
 template void sample_field<Slivers::raised>(const State&, const ParticleField<CubicSpline>&, const Launcher&);

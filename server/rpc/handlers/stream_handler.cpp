@@ -275,7 +275,7 @@ private:
         require_same_session(session_id_, message.session_id());
         UploadOptions options = upload_options(message);
         const auto session = find_session(caller_, registry_, session_id_);
-        const CodecChoice codec = codec_choice(message, session->has_lattice());
+        const CodecChoice codec = codec_choice(message);
         options.codec = codec.codec;
         const auto wake = [self = weak_from_this()] {
             if (const auto reactor = self.lock()) reactor->write();

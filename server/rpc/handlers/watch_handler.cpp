@@ -116,7 +116,7 @@ private:
         WatchOptions options = watch_options_of(request, session_->settings());
         CodecChoice codec;
         if constexpr (sends_meshes) {
-            codec = codec_choice(request, session_->has_lattice());
+            codec = codec_choice(request);
             options.format.codec = codec.codec;
         }
         watch_ = session_->open_watch(options, wake, account);

@@ -9,6 +9,7 @@
 #include "conversion/brick_conversion.hpp"
 #include "meniscus/attribute_coding.hpp"
 #include "meniscus/brick_coding.hpp"
+#include "meniscus/packed_bricks.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/sending/begin_message.hpp"
 #include "sessions/sending/place_order.hpp"
@@ -58,6 +59,14 @@ SharedBrick find_brick(const EncodedFrame* frame, const std::array<std::int32_t,
     return found != frame->bricks.end() && (*found)->place == place ? *found : nullptr;
 }
 
+/// Bricks that the earlier frame has need not come down.
+void leave_known_bricks(PackedBricks& packed, const Mesh& mesh, const EncodedFrame* before) {
+    for (std::size_t i = 0; i < mesh.bricks.size(); ++i) {
+        const SharedBrick brick = find_brick(before, mesh.bricks[i].coordinate);
+        if (brick && brick->content_hash == packed.hash(i)) packed.leave(i);
+    }
+}
+
 google::protobuf::RepeatedPtrField<v1::MeshAttribute> announced(const Mesh& mesh,
                                                                 std::span<const AttributeRange> ranges,
                                                                 std::span<const CodedAttribute> coded) {
@@ -81,11 +90,8 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
                                                  const EncodedFrame* before, WorkerPool& workers, ScratchPool& scratch,
                                                  const MessageSink& sink, bool spray_to_sink) {
     const MeshDownload& download = frame.download_at(format.max_level);
-    download.start();
     // Spray lies beside the mesh as reconstructed, whatever its level cap.
     const Array<Point>& spray = frame.mesh.spray;
-    if (!spray.empty()) frame.download.start();
-    const auto start = Clock::now();
     const Mesh& mesh = *frame.mesh_at(format.max_level);
     // The ranges are those of the whole mesh, and announced before its first brick.
     const std::vector<AttributeRange>& ranges = frame.ranges_at(format.max_level);
@@ -93,6 +99,9 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
                                .position_bits = format.position_bits,
                                .codec = format.codec,
                                .attributes = coded_attributes(mesh, ranges, format.attributes)};
+    const std::shared_ptr<PackedBricks> packed = download.pack(mesh, coding);
+    if (!packed) download.start();
+    const auto start = Clock::now();
     auto encoded = std::make_shared<EncodedFrame>();
     encoded->index = frame.index;
     encoded->run_id = frame.run_id;
@@ -115,12 +124,14 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
     std::mutex emitting;
     std::uint64_t bytes = 0;
     encoded->bricks.resize(mesh.bricks.size());
+    if (packed) leave_known_bricks(*packed, mesh, before);
     workers.for_each(mesh.bricks.size(), [&](std::size_t i) {
-        download.bring(i);
+        if (!packed) download.bring(i);
         SharedBrick brick = find_brick(before, mesh.bricks[i].coordinate);
         {
             ScratchPool::Loan loan(scratch);
-            const PreparedBrick prepared(mesh, i, coding, *loan);
+            const PreparedBrick prepared =
+                packed ? PreparedBrick(*packed, i, coding, *loan) : PreparedBrick(mesh, i, coding, *loan);
             const ContentHash hash = prepared.hash();
             if (!brick || brick->content_hash != hash) brick = brick_messages(prepared.encode(), hash);
         }

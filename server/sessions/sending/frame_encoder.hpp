@@ -64,7 +64,7 @@ struct ReconstructedFrame {
     /// others. For one thread at a time.
     const std::vector<AttributeRange>& ranges_at(int max_level) const {
         auto& found = ranges.at(static_cast<std::size_t>(max_level - 1));
-        if (!found) found = attribute_ranges(*mesh_at(max_level));
+        if (!found) found = download_at(max_level).attribute_ranges(*mesh_at(max_level));
         return *found;
     }
 };
@@ -72,10 +72,11 @@ struct ReconstructedFrame {
 /// Called with every message as soon as it is there, one call at a time. The parts of a brick follow one another.
 using MessageSink = std::function<void(const SharedMessage&)>;
 
-/// Brings the mesh down, and encodes the bricks in parallel, but those whose content `before` has already: an earlier
-/// frame of the session in the same format, or none. The frame has the mesh of that format. sink may be empty. Throws
-/// DeviceError if the mesh cannot come down, LimitExceeded if the account of the scratch memory would pass its limit.
-/// spray_to_sink: whether the sink gets the spray as well, which the encoded frame has anyway.
+/// Brings the mesh down, or its bricks where a GPU can pack them, and encodes these in parallel, but those whose
+/// content `before` has already: an earlier frame of the session in the same format, or none. The frame has the mesh of
+/// that format. sink may be empty. Throws DeviceError if the mesh cannot come down, LimitExceeded if the account of the
+/// scratch memory would pass its limit. spray_to_sink: whether the sink gets the spray as well, which the encoded frame
+/// has anyway.
 std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, const MeshFormat& format,
                                                  const EncodedFrame* before, WorkerPool& workers, ScratchPool& scratch,
                                                  const MessageSink& sink, bool spray_to_sink = false);

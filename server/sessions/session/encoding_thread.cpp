@@ -255,9 +255,8 @@ bool EncodingThread::encode_in_one_format() {
 
 void EncodingThread::encode_for_observer() {
     const std::vector<AttributeWish> all{{.name = {}, .bits = context_.observer->attribute_bits()}};
-    const Codec wanted = context_.observer->codec();
-    const Codec codec = context_.has_lattice || !needs_lattice(wanted) ? wanted : Codec::draco;
-    const MeshFormat format = stream_format(SessionObserver::normal_bits, codec, all, context_.settings);
+    const MeshFormat format =
+        stream_format(SessionObserver::normal_bits, context_.observer->codec(), all, context_.settings);
     std::shared_ptr<const EncodedFrame> frame = watchers_.published(format);
     try {
         if (!frame)

@@ -8,7 +8,7 @@ ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOpt
     const auto stop = std::make_shared<StopFlag>();
     BackendOptions stoppable = backend;
     stoppable.stop = stop;
-    stoppable.keep_lattice = backend.backend == Backend::cpu;
+    stoppable.keep_lattice = true;
     const auto reconstructor = std::make_shared<Reconstructor>(settings, stoppable);
     ReconstructFunctions functions{
         .reconstruct =
@@ -18,7 +18,6 @@ ReconstructFunctions make_reconstruct(const Settings& settings, const BackendOpt
             },
         .emit_capped = [reconstructor](int max_level, Mesh& mesh) { reconstructor->emit_capped(max_level, mesh); },
         .stop = stop,
-        .keeps_lattice = stoppable.keep_lattice,
         .release_memory = [reconstructor] { reconstructor->release_memory(); },
         .limit_memory = [reconstructor](std::size_t bytes) { reconstructor->limit_memory(bytes); }};
     if (backend.backend != Backend::cpu)

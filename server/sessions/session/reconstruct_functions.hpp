@@ -27,8 +27,8 @@ struct Reconstructed {
 
 /// Called by one thread of the session.
 struct ReconstructFunctions {
-    /// Replaces the mesh by the frame's surface, which is there once it has been downloaded; throws what
-    /// Reconstructor::reconstruct_for_download throws.
+    /// Replaces the mesh by the frame's surface with its lattice, which is there once it has been downloaded; throws
+    /// what Reconstructor::reconstruct_for_download throws.
     std::function<Reconstructed(const ParticleFrame& frame, Mesh& mesh)> reconstruct;
     /// Replaces the mesh by the last frame's surface with its levels capped; throws what Reconstructor::emit_capped
     /// throws. None if no watcher will ask for a level cap.
@@ -39,7 +39,6 @@ struct ReconstructFunctions {
     /// thread, also while the others are called and when nobody calls them any more. None: there is nowhere to copy
     /// them.
     std::function<FrameUpload(const ParticleFrame& frame)> send_ahead{};
-    bool keeps_lattice = false;  ///< whether meshes come with Mesh::lattice
     /// Gives the buffers back until the next frame. May be none.
     std::function<void()> release_memory{};
     /// Limits the memory of the next calls, see Reconstructor::limit_memory(). None: it has no limit.

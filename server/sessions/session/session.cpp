@@ -25,7 +25,6 @@ Session::Session(SessionIdentity identity, const Settings& settings, const Limit
                .settings = settings,
                .limits = limits,
                .shared = std::move(shared),
-               .has_lattice = functions.keeps_lattice,
                .observer = std::move(observer),
                .closing = closing_.get_token()},
       in_flight_(

@@ -68,7 +68,6 @@ public:
     const std::shared_ptr<NameAccount>& account() const noexcept { return context_.identity.account; }
     const Settings& settings() const noexcept { return context_.settings; }
     /// Whether the lattice codecs can encode its meshes.
-    bool has_lattice() const noexcept { return context_.has_lattice; }
     const SessionKind& kind() const noexcept { return context_.identity.kind; }
     const std::string& name() const noexcept { return kind().description.name(); }
     std::chrono::system_clock::time_point created_at() const noexcept { return created_at_; }

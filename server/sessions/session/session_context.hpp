@@ -33,7 +33,6 @@ struct SessionContext {
     const Settings settings;
     const Limits limits;
     const SharedResources shared;
-    const bool has_lattice;                           ///< whether its meshes do: the lattice codecs need it
     const std::shared_ptr<SessionObserver> observer;  ///< may be none
     const std::stop_token closing{};                  ///< requested once the session ends
 };

@@ -113,6 +113,9 @@ SessionRegistry::Created SessionRegistry::create(const std::string& id, const Se
         auto& pinning = pinning_[backend.device];
         if (!pinning) pinning = pinning_that_logs_refusals(backend.device);
         backend.pinning = pinning;
+        backend.notice = [device = backend.device](const std::string& what) {
+            spdlog::warn("GPU {} is slower: {}", device, what);
+        };
     }
     const SessionIdentity identity{.id = id, .owner = creator.name, .account = creator.account, .kind = kind};
     auto session = std::make_shared<Session>(identity, settings, limits_, make_reconstruct_(settings, backend),

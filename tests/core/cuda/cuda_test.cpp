@@ -88,6 +88,33 @@ TEST_F(CudaSmall, GivesTheCpusMeshForAdversarialParticles) {
     expect_the_cpus_mesh(test::default_settings(), frames);
 }
 
+TEST_F(CudaSmall, PacksTheCpusBricks) {
+    test::ParticlesWithArrays particles = test::with_noise(test::splash(5, 8), 1);
+    for (const Mode mode : {Mode::adaptive, Mode::uniform}) {
+        SCOPED_TRACE(name_of(mode));
+        Settings settings = test::default_settings();
+        settings.mode = mode;
+        settings.all_attributes = true;
+        Reconstructor gpu(settings, {.backend = Backend::cuda, .keep_lattice = true});
+        Reconstructor cpu(settings, {.backend = Backend::cpu, .keep_lattice = true});
+        Mesh mesh, expected;
+        cpu.reconstruct(particles.frame(), expected);
+        for (int round = 0; round < 4; ++round) {  // grown, run launch by launch, captured, replayed
+            const MeshDownload download = gpu.reconstruct_for_download(particles.frame(), mesh);
+            const std::vector<AttributeRange> ranges = download.attribute_ranges(mesh);
+            EXPECT_EQ(ranges, attribute_ranges(expected));
+            const std::vector<AttributeWish> all{{.name = {}, .bits = 8}};
+            const CodingOptions options{.codec = Codec::lattice_packed,
+                                        .attributes = coded_attributes(mesh, ranges, all)};
+            const auto bricks = download.pack(mesh, options);
+            ASSERT_NE(bricks, nullptr);
+            ASSERT_EQ(mesh.bricks.size(), expected.bricks.size());
+            for (std::size_t i = 0; i < expected.bricks.size(); ++i)
+                EXPECT_EQ(bricks->bring(i).data, encode_brick(expected, i, options).data) << "brick " << i;
+        }
+    }
+}
+
 TEST_F(CudaSmall, GivesTheCpusAttributes) {
     test::ParticlesWithArrays particles = test::with_noise(test::splash(3, 8), 1);
     for (const Field field : choices<Field>) {

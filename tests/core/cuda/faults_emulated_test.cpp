@@ -1,7 +1,8 @@
-// Ten faults, put into the software device's copies of the CUDA backend, and for each the check that catches it.
+// Faults, put into the software device's copies of the CUDA backend, and for each the check that catches it.
 // Without that check the faulty backend would pass for a right one, and its test here would fail.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <utility>
@@ -27,7 +28,7 @@ public:
                         test::Particles particles = test::splash(3, 7))
         : particles_(std::move(particles)), settings_(settings), placement_("MENISCUS_DEVICE_ARRAYS", placement) {
         expected_ = test::reconstruct(settings_, particles_.frame());
-        device_ = cuda::make_reconstruction(settings_, BackendOptions{}, std::make_shared<MemoryAccount>(),
+        device_ = cuda::make_reconstruction(settings_, {.keep_lattice = true}, std::make_shared<MemoryAccount>(),
                                             std::make_shared<MemoryAccount>());
     }
 
@@ -48,6 +49,22 @@ public:
         for (unsigned seed = 1; seed <= 4; ++seed) {
             emulated_device::seed_order(seed);
             if (!gives_the_cpus_bytes()) return false;
+        }
+        return true;
+    }
+    /// The same for the bricks that it packs.
+    bool packs_the_cpus_bytes_in_any_order() {
+        CodingOptions options;
+        options.codec = Codec::lattice_packed;
+        mesh_.cell_size = expected_.cell_size;
+        mesh_.offset_bits = expected_.offset_bits;
+        for (unsigned seed = 1; seed <= 4; ++seed) {
+            emulated_device::seed_order(seed);
+            Statistics statistics;
+            const MeshDownload download = device_->reconstruct(particles_.frame(), mesh_, statistics);
+            const auto bricks = download.pack(mesh_, options);
+            for (std::size_t i = 0; i < expected_.bricks.size(); ++i)
+                if (bricks->bring(i).data != encode_brick(expected_, i, options).data) return false;
         }
         return true;
     }
@@ -81,9 +98,32 @@ TEST(FaultsEmulated, AnIndexOffByOneIsCaughtByTheComparisonWithTheCpu) {
 
 TEST(FaultsEmulated, AMissingBarrierIsCaughtByTheOrderOfChanceOfWarps) {
     Comparison comparison("together");
-    ASSERT_TRUE(comparison.gives_the_cpus_bytes_in_any_order());
+    ASSERT_TRUE(comparison.packs_the_cpus_bytes_in_any_order());
     const FaultInForce fault(Fault::missing_barrier);
-    EXPECT_FALSE(comparison.gives_the_cpus_bytes_in_any_order());
+    EXPECT_FALSE(comparison.packs_the_cpus_bytes_in_any_order());
+}
+
+TEST(FaultsEmulated, AStopThatLateBlocksReadIsCaughtByTheOrderOfChanceOfBlocks) {
+    // More bricks of particles than there is room for at first, and particles of two blocks.
+    test::Particles apart;
+    for (int i = 0; i < 300; ++i) apart.add(7.5F * static_cast<float>(i % 20), 7.5F * static_cast<float>(i / 20), 0.0F);
+    Settings settings = test::default_settings();
+    settings.field = Field::color;
+    settings.mode = Mode::uniform;
+    settings.cell_size = 4.0;
+    const auto first_frame_is_the_cpus = [&](unsigned seed) {
+        emulated_device::seed_order(seed);
+        Comparison comparison("guarded", settings, apart);
+        return comparison.error().empty() && comparison.gives_the_cpus_bytes();
+    };
+    EXPECT_TRUE(first_frame_is_the_cpus(1));
+    const FaultInForce fault(Fault::early_stop);
+    EXPECT_DEATH(
+        {
+            for (unsigned seed = 1; seed <= 3; ++seed)
+                if (!first_frame_is_the_cpus(seed)) std::abort();
+        },
+        "");
 }
 
 TEST(FaultsEmulated, AWrongMaskIsCaughtByTheCheckOfMasks) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cuda_runtime.h"
+#include "engine/arrays.hpp"
 #include "engine/cuda/pinned_memory.hpp"
 #include "host_copies.hpp"
 #include "meniscus/meniscus.hpp"
@@ -197,6 +198,28 @@ TEST_F(PinnedArrays, ArraysOfWhichOnlyTheEndsArePinnedGoAsThoseThatAreNot) {
     EXPECT_EQ(device->sender()->send(own.frame()), 0U) << "although there is an area";
     reconstruct(own.frame());
     expect_the_cpus_mesh();
+}
+
+TEST(PinnedGrowth, ALargeArrayThatGrowsSlowlyIsPinnedOnceInManyFrames) {
+    struct CountedPinning final : PagePinning {
+        void pin(void*, std::size_t) noexcept override { ++pins; }
+        void unpin(void*) noexcept override {}
+        int pins = 0;
+    };
+    const auto pinning = std::make_shared<CountedPinning>();
+    const auto pinned = std::make_shared<MemoryAccount>(0, "in memory", nullptr, pinning);
+    const auto others = std::make_shared<MemoryAccount>();
+    Array<std::byte> array{AccountAllocator<std::byte>(pinned)};
+    Array<std::byte> other{AccountAllocator<std::byte>(others)};
+    constexpr std::size_t large = std::size_t{40} << 20;
+    for (std::size_t tenths = 10; tenths <= 15; ++tenths) {
+        resize_for_overwrite(array, large * tenths / 10);
+        resize_for_overwrite(other, large * tenths / 10);
+    }
+    EXPECT_EQ(pinning->pins, 1);
+    EXPECT_GT(others->allocations(), 2U) << "memory that is not pinned is kept small";
+    resize_for_overwrite(array, 2 * large);
+    EXPECT_EQ(pinning->pins, 2);
 }
 
 }  // namespace

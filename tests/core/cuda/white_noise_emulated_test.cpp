@@ -1,10 +1,12 @@
 // White noise over random levels through the pipeline with CUDA's steps, on the device in software: closed, and the
-// CPU's mesh to the bit.
+// CPU's mesh and packed bricks to the bit.
 #include <gtest/gtest.h>
 
 #include <cstring>
 
 #include "engine/cuda/array_memory.hpp"
+#include "meniscus/brick_coding.hpp"
+#include "pipeline/cuda_packed_bricks.hpp"
 #include "pipeline/cuda_pipeline.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/stage_clock.hpp"
@@ -64,13 +66,16 @@ public:
     void register_particles() {
         wait();
         std::memset(state_.counts, 0, sizeof(cuda::Counts));
-        Brick& brick = state_.bricks[0];
-        brick.coordinate = {};
-        brick.clear();
-        test::mark_world(field_.world, {}, brick.occupied);
-        state_.brick_keys[0] = brick_key(brick.coordinate);
-        state_.members_before[0] = brick.count();
-        state_.counts->needed[static_cast<int>(cuda::Resource::bricks)] = 1;
+        std::uint32_t bricks = 0;
+        for (int i = 0; i < 8; ++i) {
+            Brick& brick = state_.bricks[bricks];
+            brick.coordinate = {i & 1, i >> 1 & 1, i >> 2};
+            brick.clear();
+            if (!test::mark_world(field_.world, brick.coordinate, brick.occupied)) continue;
+            state_.brick_keys[bricks] = brick_key(brick.coordinate);
+            state_.members_before[bricks++] = brick.count();
+        }
+        state_.counts->needed[static_cast<int>(cuda::Resource::bricks)] = bricks;
         cuda::store_blocks(state_, launch_);
     }
     void sample_base_vertices() {
@@ -109,13 +114,16 @@ private:
 class NoiseOnDevice {
 public:
     explicit NoiseOnDevice(const test::NoiseWorld& world)
-        : memory_(0, stream_.get(), std::make_shared<MemoryAccount>()),
+        : storage_(std::make_shared<cuda::MeshStorage>(0, std::make_shared<MemoryAccount>(),
+                                                       std::make_shared<MemoryAccount>())),
+          memory_(0, stream_.get(), std::make_shared<MemoryAccount>()),
           mesh_memory_(0, stream_.get(), std::make_shared<MemoryAccount>()),
           state_(LatticeSettings(test::noise_settings(world))) {
         constexpr std::uint64_t room = 65536;
         state_.capacity.particles = 1;
         state_.capacity.of.fill(room);
-        state_.capacity.of[static_cast<std::size_t>(cuda::Resource::bricks)] = 1;
+        state_.capacity.of[static_cast<std::size_t>(cuda::Resource::bricks)] = 8;
+        state_.keeps_lattice = true;
         state_.capacity.of[static_cast<std::size_t>(cuda::Resource::blocks)] = 4096;
         state_.scratch_bytes = cuda::scratch_bytes(room, room, room);
         memory_.assign(state_.arrays());
@@ -132,6 +140,7 @@ public:
                 cuda::cap_levels(state_, world.max_level, true, launch);
                 emit_mesh(steps, clock);
             }
+            cuda::keep_lattice(state_, launch);
         };
         if (world.keeps_slivers)
             run(NoiseSteps<Slivers::kept>(state_, world, launch));
@@ -149,13 +158,38 @@ public:
         for (std::size_t level = 0; level < triangle_level_count; ++level)
             mesh.levels[level] = {state_.counts->first_triangle[level],
                                   static_cast<std::uint32_t>(state_.counts->triangles[level])};
+        std::vector<cuda::BrickOnDevice> bricks;
+        for (std::uint32_t b = 0; b < needed(cuda::Resource::bricks); ++b) {
+            if (state_.mesh_bricks[b].triangle_count() == 0) continue;
+            mesh.bricks.push_back(state_.mesh_bricks[b]);
+            bricks.push_back({.index = b, .kept = state_.kept_bricks[b]});
+        }
+        pack(mesh, bricks);
         return mesh;
     }
+
+    /// The bricks of the mesh made last.
+    std::vector<EncodedBrick> packed;
 
     /// Six times the volume of the mesh before its levels were capped.
     std::uint64_t measured_sixfold_volume() const { return sixfold_volume_; }
 
 private:
+    void pack(const Mesh& mesh, const std::vector<cuda::BrickOnDevice>& bricks) {
+        cuda::MeshOnDevice from;
+        from.mesh.normals = state_.normals;
+        from.lattice = {.vertices = state_.vertices,
+                        .normals = state_.normals,
+                        .blocks = state_.lattice_blocks,
+                        .kept = state_.kept_blocks,
+                        .bricks = state_.kept_bricks,
+                        .offset_bits = state_.settings.offset_bits};
+        cuda::DevicePackedBricks of_mesh(storage_, from, mesh, bricks, {}, std::make_shared<cuda::CopyTime>());
+        packed.clear();
+        for (std::size_t i = 0; i < bricks.size(); ++i) packed.push_back(of_mesh.bring(i));
+    }
+
+    std::shared_ptr<cuda::MeshStorage> storage_;
     cuda::Stream stream_;
     cuda::ArrayMemory memory_, mesh_memory_;
     cuda::State state_;
@@ -175,6 +209,10 @@ void expect_closed(const test::NoiseWorld& world, std::uint64_t first, std::uint
         std::uint64_t sixfold = 0;
         for (const Triangle& triangle : mesh.triangles)
             sixfold += static_cast<std::uint64_t>(sixfold_volume(mesh.vertices.data(), triangle));
+        ASSERT_EQ(device.packed.size(), expected.bricks.size()) << "seed " << seeded.seed;
+        for (std::size_t i = 0; i < expected.bricks.size(); ++i)
+            ASSERT_EQ(device.packed[i].data, encode_brick(expected, i, {.codec = Codec::lattice_packed}).data)
+                << "seed " << seeded.seed << ", brick " << i;
         if (seeded.max_level == 3) ASSERT_EQ(device.measured_sixfold_volume(), sixfold) << "seed " << seeded.seed;
     });
 }
@@ -184,6 +222,10 @@ TEST(WhiteNoiseEmulated, GivesClosedManifoldsOverRandomLevels) {
 }
 TEST(WhiteNoiseEmulated, GivesClosedManifoldsWhereSliversAreRaised) {
     expect_closed({.keeps_slivers = false}, 7001, 25);
+}
+TEST(WhiteNoiseEmulated, GivesTheCpusMeshAcrossEightBricks) {
+    for (const int max_level : {3, 2}) expect_closed({.first = 14, .max_level = max_level}, 10'001, 20);
+    expect_closed({.first = 14, .uniform = true}, 11'001, 5);
 }
 TEST(WhiteNoiseEmulated, GivesClosedManifoldsWhereFewPointsAreInsideOrOutside) {
     expect_closed({.share = 0.15}, 1001, 20);

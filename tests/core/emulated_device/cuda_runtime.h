@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <source_location>
 #include <tuple>
 #include <type_traits>
@@ -176,6 +177,7 @@ enum cudaError_t {
     cudaErrorInvalidValue,
     cudaErrorHostMemoryNotRegistered,
     cudaErrorInvalidConfiguration,
+    cudaErrorNotReady,
     cudaErrorCooperativeLaunchTooLarge,
     cudaErrorStreamCaptureUnsupported,  ///< for calls that would wait or allocate while this thread captures a graph
 };
@@ -194,6 +196,8 @@ struct cudaPointerAttributes {
 enum cudaStreamCaptureMode { cudaStreamCaptureModeThreadLocal };
 enum cudaMemAllocationType { cudaMemAllocationTypePinned };
 enum cudaMemLocationType { cudaMemLocationTypeDevice };
+enum cudaFuncAttribute { cudaFuncAttributePreferredSharedMemoryCarveout };
+constexpr int cudaSharedmemCarveoutMaxShared = 100;
 enum cudaLaunchAttributeID { cudaLaunchAttributeCooperative };
 constexpr unsigned cudaStreamNonBlocking = 1;
 constexpr unsigned cudaEventRecordExternal = 1;
@@ -237,6 +241,11 @@ struct cudaFuncAttributes {
 };
 
 const char* cudaGetErrorString(cudaError_t);
+namespace emulated_device {
+/// Kernels that have asked for as much shared memory as there is.
+extern std::set<const void*> most_shared;
+}  // namespace emulated_device
+cudaError_t cudaFuncSetAttribute(const void* kernel, cudaFuncAttribute, int value);
 cudaError_t cudaFuncGetAttributes(cudaFuncAttributes*, const void* kernel);
 /// The mangled name; cudaErrorInvalidValue for an address that is no function of this program.
 cudaError_t cudaFuncGetName(const char** name, const void* kernel);
@@ -261,6 +270,8 @@ cudaError_t cudaEventDestroy(cudaEvent_t);
 cudaError_t cudaEventRecord(cudaEvent_t, cudaStream_t);
 cudaError_t cudaEventRecordWithFlags(cudaEvent_t, cudaStream_t, unsigned);
 cudaError_t cudaEventSynchronize(cudaEvent_t);
+/// What the event waits for is not done before the host waits for it.
+cudaError_t cudaEventQuery(cudaEvent_t);
 cudaError_t cudaEventElapsedTime(float* milliseconds, cudaEvent_t, cudaEvent_t);
 cudaError_t cudaMemPoolCreate(cudaMemPool_t*, const cudaMemPoolProps*);
 cudaError_t cudaMemPoolDestroy(cudaMemPool_t);

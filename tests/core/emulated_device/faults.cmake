@@ -7,12 +7,18 @@ plant(index_off_by_one steps/place_vertices/place_vertices.cu
   [=[Vertex v(edges, place.i);]=]
   [=[Vertex v(edges, std::min(place.i + (FAULTY(index_off_by_one) ? 1 : 0), edges.count() - 1));]=])
 
-# A block's triangles are added up before all warps have counted theirs.
-plant(missing_barrier steps/count_triangles/count_triangles.cu
-  [=[    __syncthreads();
-    if (threadIdx.x < 3 && total]=]
-  [=[    if (!FAULTY(missing_barrier)) __syncthreads();
-    if (threadIdx.x < 3 && total]=])
+# A brick's rows of cells are written before all warps have marked theirs.
+plant(missing_barrier codec/lattice/pack_bricks.cu
+  [=[        __syncthreads();
+        rows.write(]=]
+  [=[        if (!FAULTY(missing_barrier)) __syncthreads();
+        rows.write(]=])
+
+# A kernel stops the frame while blocks of it have yet to begin.
+plant(early_stop steps/register_particles/sort_particles.cu
+  [=[state.counts->needed[static_cast<int>(Resource::particle_bricks)] = brick + 1;]=]
+  [=[state.counts->needed[static_cast<int>(Resource::particle_bricks)] = brick + 1;
+            if (FAULTY(early_stop)) state.need(Resource::particle_bricks, brick + 1);]=])
 
 # A ballot does not name the warp's last lane.
 plant(wrong_mask neighbors/cuda/neighbor_list.hpp

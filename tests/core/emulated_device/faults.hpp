@@ -10,6 +10,7 @@ enum class Fault : std::uint8_t {
     none,
     index_off_by_one,
     missing_barrier,
+    early_stop,
     wrong_mask,
     unset_word,
     guard_overrun,

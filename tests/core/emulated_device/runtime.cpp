@@ -90,7 +90,9 @@ void run_until(EmulatedStream& stream, std::size_t count) {
 
 emulated_device::KernelRunner* emulated_device::runner = nullptr;
 std::function<cudaError_t()> emulated_device::before_copy_to_host;
+std::set<const void*> emulated_device::most_shared;
 std::size_t emulated_device::graph_launches = 0;
+cudaError_t emulated_device::instantiate_status = cudaSuccess;
 cudaError_t emulated_device::elapsed_time_status = cudaSuccess;
 cudaError_t emulated_device::register_status = cudaSuccess;
 cudaError_t emulated_device::unregister_status = cudaSuccess;
@@ -117,12 +119,18 @@ const char* cudaGetErrorString(cudaError_t status) {
             return "pointer does not correspond to a registered memory region";
         case cudaErrorInvalidConfiguration:
             return "invalid configuration argument";
+        case cudaErrorNotReady:
+            return "device not ready";
         case cudaErrorCooperativeLaunchTooLarge:
             return "too many blocks in cooperative launch";
         case cudaErrorStreamCaptureUnsupported:
             return "operation not permitted when stream is capturing";
     }
     return "unknown error";
+}
+cudaError_t cudaFuncSetAttribute(const void* kernel, cudaFuncAttribute, int value) {
+    if (value == cudaSharedmemCarveoutMaxShared) emulated_device::most_shared.insert(kernel);
+    return cudaSuccess;
 }
 cudaError_t cudaGetLastError() {
     return cudaSuccess;
@@ -174,6 +182,7 @@ cudaError_t cudaStreamEndCapture(cudaStream_t stream, cudaGraph_t* graph) {
     return cudaSuccess;
 }
 cudaError_t cudaGraphInstantiate(cudaGraphExec_t* executable, cudaGraph_t graph, unsigned long long) {
+    if (emulated_device::instantiate_status != cudaSuccess) return emulated_device::instantiate_status;
     ++graph->owners;
     return *executable = graph, cudaSuccess;
 }
@@ -209,6 +218,10 @@ cudaError_t cudaEventSynchronize(cudaEvent_t event) {
     const std::lock_guard lock(device);
     if (event->stream != nullptr) run_until(*event->stream, event->after);
     return cudaSuccess;
+}
+cudaError_t cudaEventQuery(cudaEvent_t event) {
+    const std::lock_guard lock(device);
+    return event->stream == nullptr || event->stream->done >= event->after ? cudaSuccess : cudaErrorNotReady;
 }
 cudaError_t cudaEventElapsedTime(float* milliseconds, cudaEvent_t, cudaEvent_t) {
     // The number that a failing call has given must not be used.

@@ -13,7 +13,6 @@
 #include "meniscus/codec.hpp"
 #include "receiving/frame_receiver.hpp"
 #include "recording/recording_service.hpp"
-#include "rpc/messages/codec_choice.hpp"
 #include "running_server.hpp"
 
 namespace meniscus::server::test {
@@ -176,16 +175,6 @@ TEST(CodecChoice, IsTheSmallestThatIsNamedWhereBytesAreLimited) {
     EXPECT_EQ(limited({draco, entropy}), Numbers{entropy});
     EXPECT_EQ(limited({packed, draco}), Numbers{packed});
     EXPECT_EQ(limited({}), Numbers{draco});
-}
-
-TEST(CodecChoice, OfASessionWithoutALatticeIsTheNextThatNeedsNone) {
-    const std::vector named{Codec::lattice_packed, Codec::lattice_entropy, Codec::draco};
-    EXPECT_EQ(choose_codec(named, true).codec, Codec::lattice_packed);
-    EXPECT_EQ(choose_codec(named, false).codec, Codec::draco);
-    EXPECT_NE(choose_codec(named, false).reason, choose_codec(named, true).reason);
-    EXPECT_EQ(choose_codec(named, false, true).codec, Codec::draco);
-    const std::vector lattices{Codec::lattice_packed};
-    EXPECT_EQ(choose_codec(lattices, false).codec, Codec::draco) << "which every client decodes";
 }
 
 TEST(CodecChoice, ChangesNoMesh) {

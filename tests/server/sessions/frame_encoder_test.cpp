@@ -9,6 +9,7 @@
 #include "late_meshes.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/v1/surface_service.pb.h"
+#include "packing_mesh.hpp"
 #include "sessions/limits/limits.hpp"
 #include "test_frames.hpp"
 
@@ -20,7 +21,7 @@ struct FrameOf : ReconstructedFrame {
         index = 5;
         simulation_time = 2.5;
         received_at = std::chrono::steady_clock::now();
-        Reconstructor reconstructor(test::settings(), {.threads = 1});
+        Reconstructor reconstructor(test::settings(), {.threads = 1, .keep_lattice = true});
         reconstructor.reconstruct(particles.view(), mesh);
         statistics = reconstructor.statistics();
     }
@@ -158,20 +159,30 @@ TEST(FrameEncoder, SendsAnEmptyMesh) {
     EXPECT_GT(parsed(encoded->begin).mesh_begin().cell_size(), 0.0);
 }
 
+/// Two bodies of water, far apart; one of them moves.
+test::Particles two_bodies(double phase) {
+    test::Particles both = test::wave(10, phase);
+    for (const float p : test::wave(10, 0.0).positions) both.positions.push_back(p + 20.0F);
+    return both;
+}
+
+void expect_same_bricks(const EncodedFrame& frame, const EncodedFrame& expected) {
+    ASSERT_EQ(frame.bricks.size(), expected.bricks.size());
+    for (std::size_t i = 0; i < frame.bricks.size(); ++i) {
+        ASSERT_EQ(frame.bricks[i]->messages.size(), expected.bricks[i]->messages.size());
+        for (std::size_t m = 0; m < frame.bricks[i]->messages.size(); ++m)
+            EXPECT_EQ(*frame.bricks[i]->messages[m], *expected.bricks[i]->messages[m]);
+    }
+}
+
 TEST(FrameEncoder, EncodesOnlyTheBricksThatHaveChanged) {
     WorkerPool workers(2);
     ScratchPool scratch;
-    // Two bodies of water, far apart; one of them moves.
-    const auto particles = [](double phase) {
-        test::Particles both = test::wave(10, phase);
-        for (const float p : test::wave(10, 0.0).positions) both.positions.push_back(p + 20.0F);
-        return both;
-    };
-    const auto before = encode_frame(FrameOf(particles(0.0)), {.normal_bits = 8}, nullptr, workers, scratch, nullptr);
+    const auto before = encode_frame(FrameOf(two_bodies(0.0)), {.normal_bits = 8}, nullptr, workers, scratch, nullptr);
     const auto after =
-        encode_frame(FrameOf(particles(0.5)), {.normal_bits = 8}, before.get(), workers, scratch, nullptr);
-    const auto anew = encode_frame(FrameOf(particles(0.5)), {.normal_bits = 8}, nullptr, workers, scratch, nullptr);
-    ASSERT_EQ(after->bricks.size(), anew->bricks.size());
+        encode_frame(FrameOf(two_bodies(0.5)), {.normal_bits = 8}, before.get(), workers, scratch, nullptr);
+    const auto anew = encode_frame(FrameOf(two_bodies(0.5)), {.normal_bits = 8}, nullptr, workers, scratch, nullptr);
+    expect_same_bricks(*after, *anew);
     std::size_t reused = 0;
     std::size_t far = 0;
     for (std::size_t i = 0; i < after->bricks.size(); ++i) {
@@ -181,12 +192,52 @@ TEST(FrameEncoder, EncodesOnlyTheBricksThatHaveChanged) {
         EXPECT_TRUE(is_reused || !is_far);
         reused += is_reused ? 1U : 0U;
         far += is_far ? 1U : 0U;
-        ASSERT_EQ(brick->messages.size(), anew->bricks[i]->messages.size());
-        for (std::size_t m = 0; m < brick->messages.size(); ++m)
-            EXPECT_EQ(*brick->messages[m], *anew->bricks[i]->messages[m]);
     }
     EXPECT_GT(far, 0U);
     EXPECT_LT(reused, after->bricks.size());
+}
+
+TEST(FrameEncoder, SendsWhatTheDeviceHasPackedAndBringsNoMeshDownForIt) {
+    WorkerPool workers(1);
+    ScratchPool scratch;
+    const FrameOf on_cpu(test::wave(12, 0.0));
+    FrameOf frame(test::wave(12, 0.0));
+    const auto asked_for = std::make_shared<test::AskedFor>();
+    frame.download = MeshDownload(std::make_shared<test::PackingMesh>(asked_for, frame.mesh));
+    for (const Codec codec : {Codec::lattice_packed, Codec::lattice_entropy}) {
+        const MeshFormat format{.normal_bits = 8, .codec = codec};
+        const auto encoded = encode_frame(frame, format, nullptr, workers, scratch, nullptr);
+        expect_same_bricks(*encoded, *encode_frame(on_cpu, format, nullptr, workers, scratch, nullptr));
+        EXPECT_EQ(parsed(encoded->begin).mesh_begin().brick_count(), on_cpu.mesh.bricks.size());
+    }
+    EXPECT_EQ(asked_for->meshes, 0);
+    const MeshFormat draco{.normal_bits = 8};
+    expect_same_bricks(*encode_frame(frame, draco, nullptr, workers, scratch, nullptr),
+                       *encode_frame(on_cpu, draco, nullptr, workers, scratch, nullptr));
+    EXPECT_EQ(asked_for->meshes, 1);
+}
+
+TEST(FrameEncoder, BringsOnlyPackedBricksDownThatTheFrameBeforeLacks) {
+    WorkerPool workers(1);
+    ScratchPool scratch;
+    const auto asked_for = std::make_shared<test::AskedFor>();
+    const auto encode = [&](double phase, const EncodedFrame* before) {
+        FrameOf frame(two_bodies(phase));
+        frame.download = MeshDownload(std::make_shared<test::PackingMesh>(asked_for, frame.mesh));
+        asked_for->bricks.clear();
+        return encode_frame(frame, {.normal_bits = 8, .codec = Codec::lattice_packed}, before, workers, scratch,
+                            nullptr);
+    };
+    const auto before = encode(0.0, nullptr);
+    EXPECT_EQ(asked_for->bricks.size(), before->bricks.size());
+    const auto after = encode(0.5, before.get());
+    ASSERT_FALSE(asked_for->bricks.empty());
+    ASSERT_LT(asked_for->bricks.size(), after->bricks.size());
+    for (std::size_t i = 0; i < after->bricks.size(); ++i) {
+        const bool is_known = std::ranges::count(before->bricks, after->bricks[i]) != 0;
+        EXPECT_EQ(std::ranges::count(asked_for->bricks, i), is_known ? 0 : 1);
+    }
+    expect_same_bricks(*after, *encode(0.5, nullptr));
 }
 
 TEST(FrameEncoder, ChargesItsTablesForAsLongAsTheirOwnerKeepsThem) {

@@ -73,6 +73,11 @@ public:
     void finish() override {
         for (std::size_t brick = 0; brick < made_.bricks.size(); ++brick) bring(brick);
     }
+    std::shared_ptr<PackedBricks> pack(const CodingOptions&) override { return nullptr; }
+    std::vector<AttributeRange> attribute_ranges() override {
+        start();
+        return meniscus::attribute_ranges(to_);
+    }
     void abandon() noexcept override { --meshes_->waiting; }
     double seconds() const override { return 0.25; }
 

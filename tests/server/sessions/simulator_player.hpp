@@ -100,7 +100,8 @@ struct Simulator {
 };
 
 inline decltype(ReconstructFunctions::reconstruct) reconstruct_on_the_cpu() {
-    return [reconstructor = std::make_shared<Reconstructor>(settings(), BackendOptions{.threads = 2})](
+    return [reconstructor =
+                std::make_shared<Reconstructor>(settings(), BackendOptions{.threads = 2, .keep_lattice = true})](
                const ParticleFrame& frame, Mesh& mesh) {
         reconstructor->reconstruct(frame, mesh);
         return reconstructor->statistics();

@@ -48,7 +48,7 @@ struct StreamOptions {
     int normal_bits = 8;  ///< 2 to 16, 0 for none
     NormalsBy normals_by = NormalsBy::server;
     /// Of the meshes. None: packed from a server on this machine (a loopback address, a Unix socket), entropy from
-    /// others. The server answers in Draco where it or its session has no other.
+    /// others. The server answers in Draco where it has no other.
     std::optional<Codec> codec{};
     bool spray = false;  ///< whether the particles left out of the surface come beside the meshes
     /// The attributes of the session that the meshes carry, as in WatchOptions. None: their ranges alone come.

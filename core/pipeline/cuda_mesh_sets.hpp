@@ -6,15 +6,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 
 #include "engine/arrays.hpp"
-#include "engine/cuda/mesh_storage.hpp"
-#include "engine/cuda/pending_mesh.hpp"
 #include "engine/cuda/state.hpp"
-#include "meniscus/device_mesh.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"
+#include "pipeline/cuda_mesh_storage.hpp"
+#include "pipeline/cuda_pending_mesh.hpp"
 
 namespace meniscus::cuda {
 
@@ -78,15 +78,17 @@ public:
 
     /// Host memory for the mesh is taken here, so that none can be missing later. bricks: those without triangles
     /// included.
-    MeshDownload download(const DeviceMesh& on_device, const MeshBrick* mesh_bricks, std::size_t bricks, Mesh& mesh) {
+    MeshDownload download(const MeshOnDevice& from, std::size_t bricks, Mesh& mesh) {
+        const DeviceMesh& on_device = from.mesh;
         resize_for_overwrite(mesh.vertices, on_device.vertex_count);
         resize_for_overwrite(mesh.normals, on_device.normals != nullptr ? on_device.vertex_count : 0);
         resize_for_overwrite(mesh.triangles, on_device.triangle_count);
         for (MeshAttribute& attribute : mesh.attributes)
             resize_for_overwrite(attribute.data, on_device.vertex_count * attribute.element_bytes());
         resize_for_overwrite(mesh.bricks, bricks);
+        resize_for_overwrite(mesh.lattice.blocks, from.lattice_blocks);
         mesh.levels = on_device.levels;
-        auto pending = std::make_shared<PendingMesh>(storage_, on_device, mesh_bricks, mesh);
+        auto pending = std::make_shared<PendingMesh>(storage_, from, mesh);
         pending_[current_] = pending;
         return MeshDownload(std::move(pending));
     }
@@ -107,7 +109,11 @@ public:
             if (const auto pending = reader(set)) attempt([&] { pending->finish(); });
             storage_->sets[set].release();
         }
-        attempt([&] { storage_->stream.synchronize(); });
+        attempt([&] {
+            const std::lock_guard lock(storage_->copying);
+            storage_->to_pack_in.clear();
+            storage_->stream.synchronize();
+        });
     }
 
 private:

@@ -1,0 +1,207 @@
+// A thread block writes a brick, a thread its blocks: where their bits go is known beforehand.
+#include "codec/lattice/pack_bricks.hpp"
+
+#include "codec/lattice/bit_stream.hpp"
+#include "codec/lattice/octahedron.hpp"
+#include "codec/round_position.hpp"
+#include "engine/cuda/block_sums.hpp"
+#include "engine/cuda/warp.hpp"
+#include "steps/keep_lattice/keep_lattice.hpp"
+
+namespace meniscus::cuda {
+namespace {
+
+using Word = unsigned long long;  // what atomicOr takes
+
+/// Writes successive bits among those of other threads, which are zero before.
+class BitsAmongOthers {
+public:
+    /// bit: counted from the brick's first byte.
+    __device__ BitsAmongOthers(std::byte* brick, std::uint64_t bit) : next_(reinterpret_cast<Word*>(brick) + bit / 64) {
+        word_.filled = static_cast<int>(bit % 64);
+    }
+    __device__ ~BitsAmongOthers() {
+        if (word_.bits != 0) atomicOr(next_, Word{word_.bits});
+    }
+    BitsAmongOthers(const BitsAmongOthers&) = delete;
+    BitsAmongOthers& operator=(const BitsAmongOthers&) = delete;
+
+    __device__ void put(std::uint64_t value, int bits) {
+        word_.put(value, bits, [this](std::uint64_t word) { atomicOr(next_++, Word{word}); });
+    }
+
+private:
+    Word* next_;
+    BitWord word_;
+};
+
+/// The cells of a brick that draw, row by row: in shared memory.
+struct CellRows {
+    std::uint32_t row[brick_size * brick_size];  ///< row y + 16 z: a bit for each x
+    BlockSums<1> sums;
+
+    static_assert(sizeof(row) / sizeof(*row) == block_threads);
+
+    __device__ void write(std::byte* brick, std::uint64_t first_bit) {
+        const std::uint32_t own = row[threadIdx.x];
+        std::uint32_t before[1] = {own != 0 ? 1U : 0U};
+        std::uint32_t all[1];
+        sums.sum_below(before, all);
+        const unsigned y = threadIdx.x % brick_size;
+        const unsigned z = threadIdx.x / brick_size;
+        // Each slice has a word that says which of its rows follow.
+        const std::uint64_t at = first_bit + brick_size * (std::uint64_t{z} + before[0]);
+        if (y == 0) {
+            std::uint32_t slice = 0;
+            for (unsigned i = 0; i < brick_size; ++i) slice |= (row[threadIdx.x + i] != 0 ? 1U : 0U) << i;
+            BitsAmongOthers(brick, at).put(slice, brick_size);
+        }
+        if (own != 0) BitsAmongOthers(brick, at + brick_size).put(own, brick_size);
+    }
+};
+
+/// Calls visit(block, kept block) for those of a brick, neighboring ones in neighboring threads.
+template <class Visit>
+__device__ void for_each_block(const LatticeOnDevice& mesh, const KeptBrick& brick, const Visit& visit) {
+    for (std::uint32_t i = threadIdx.x; i < brick.blocks; i += block_threads)
+        visit(mesh.blocks[brick.first + i], mesh.kept[brick.first + i]);
+}
+
+__device__ void write_block(const LatticeOnDevice& mesh, const PackedForm& form, const PackedCounts& counts,
+                            const PackedPlaces& fields, const LatticeBlock& block, const KeptBlock& kept,
+                            std::byte* out) {
+    if (block.level != 0 && !counts.has_one_level)
+        BitsAmongOthers(out, fields.levels + level_bits * std::uint64_t{kept.before.cells})
+            .put(block.level - 1U, level_bits);
+    {
+        BitsAmongOthers bits(out, fields.signs + kept.before.signs);
+        put_signs(block.inside, kept.corners, bits);
+    }
+    if (kept.outer_faces != 0) {
+        BitsAmongOthers bits(out, fields.faces + kept.before.faces);
+        for (std::uint64_t left = kept.outer_faces; left != 0; left &= left - 1)
+            bits.put(block.coarser >> lowest_bit(left) & 1, 1);
+    }
+    const std::uint64_t before = kept.before.vertices;
+    {
+        BitsAmongOthers bits(
+            out, fields.edges + kept.before.middles + static_cast<std::uint64_t>(form.offset_bits) * before);
+        put_signs(block.inside, kept.middles, bits);
+        put_signs(block.inside, kept.quarters, bits);
+        for_each_brick_vertex(block.edges, block.first_vertex, kept.edges, [&](int axis, std::uint32_t vertex) {
+            bits.put(edge_offset(mesh.vertices[vertex], axis, mesh.offset_bits, form.offset_bits), form.offset_bits);
+        });
+    }
+    if (form.normal_bits == 0) return;
+    const Octahedron octahedron(form.normal_bits);
+    BitsAmongOthers bits(out, fields.normals + static_cast<std::uint64_t>(2 * form.normal_bits) * before);
+    for_each_brick_vertex(block.edges, block.first_vertex, kept.edges, [&](int, std::uint32_t vertex) {
+        put_normal(octahedron.code(octahedron.point(mesh.normals[vertex])), form.normal_bits, bits);
+    });
+}
+
+__global__ void __launch_bounds__(block_threads)
+    write_bricks(const LatticeOnDevice mesh, const PackedForm form, const PackedPlace* places, std::uint32_t count,
+                 std::byte* all) {
+    __shared__ CellRows rows;
+    for (std::uint32_t p = blockIdx.x; p < count; p += gridDim.x) {
+        const KeptBrick brick = mesh.bricks[places[p].brick];
+        const PackedCounts counts = packed_counts(brick);
+        const PackedPlaces fields(counts, form.offset_bits, form.normal_bits);
+        std::byte* const out = all + places[p].at;
+        rows.row[threadIdx.x] = 0;
+        __syncthreads();
+        for_each_block(mesh, brick, [&](const LatticeBlock& block, const KeptBlock&) {
+            if (block.level == 0) return;
+            const Int3 at = closed_coordinate(block.place);
+            atomicOr(&rows.row[at.y + brick_size * at.z], 1U << at.x);
+        });
+        __syncthreads();
+        rows.write(out, fields.cells);
+        if (threadIdx.x == 0) {
+            const BrickHeader header{.has_one_level = counts.has_one_level,
+                                     .offset_bits = form.offset_bits,
+                                     .normal_bits = form.normal_bits};
+            BitsAmongOthers(out, 0).put(header.word(), 8 * static_cast<int>(BrickHeader::size));
+            if (counts.has_one_level)
+                BitsAmongOthers(out, fields.levels)
+                    .put(static_cast<unsigned>(lowest_bit(brick.levels)) - 1, level_bits);
+        }
+        for_each_block(mesh, brick, [&](const LatticeBlock& block, const KeptBlock& kept) {
+            write_block(mesh, form, counts, fields, block, kept, out);
+        });
+        // The next brick's rows take the place of these.
+        __syncthreads();
+    }
+}
+
+__device__ void write_value(const AttributeOnDevice& attribute, std::uint32_t vertex, BitsAmongOthers& bits) {
+    const std::byte* const value = attribute.values + std::size_t{vertex} * attribute.exact_bytes;
+    if (attribute.bits == 0) {
+        for (std::uint32_t i = 0; i < attribute.exact_bytes; ++i) bits.put(static_cast<std::uint8_t>(value[i]), 8);
+        return;
+    }
+    const int width = attribute.bits <= 8 ? 8 : 16;
+    for (std::uint32_t c = 0; c < attribute.components; ++c)
+        bits.put(attribute.range[c].number(reinterpret_cast<const float*>(value)[c]), width);
+}
+
+__global__ void __launch_bounds__(block_threads)
+    write_attribute(const LatticeOnDevice mesh, const PackedForm form, const AttributeOnDevice attribute,
+                    std::uint32_t bytes_before, const PackedPlace* places, std::uint32_t count, std::byte* all) {
+    for (std::uint32_t p = blockIdx.x; p < count; p += gridDim.x) {
+        const KeptBrick brick = mesh.bricks[places[p].brick];
+        const PackedPlaces fields(packed_counts(brick), form.offset_bits, form.normal_bits);
+        const std::uint64_t first =
+            fields.attributes + 8 * std::uint64_t{bytes_before} * std::uint64_t{brick.totals.vertices};
+        for_each_block(mesh, brick, [&](const LatticeBlock& block, const KeptBlock& kept) {
+            BitsAmongOthers bits(all + places[p].at,
+                                 first + 8 * std::uint64_t{attribute.coded_bytes} * kept.before.vertices);
+            for_each_brick_vertex(block.edges, block.first_vertex, kept.edges,
+                                  [&](int, std::uint32_t vertex) { write_value(attribute, vertex, bits); });
+        });
+    }
+}
+
+/// One warp for every brick.
+__global__ void __launch_bounds__(block_threads)
+    sum_words(const PackedPlace* places, std::uint32_t count, const std::byte* all, PackedHash* hashes) {
+    each_by_warp(count, [&](std::uint32_t p) {
+        const auto* const words = reinterpret_cast<const std::uint64_t*>(all + places[p].at);
+        PackedHash hash{};
+        for (std::uint32_t i = lane_index(); i < places[p].words; i += warp_threads) hash.add(words[i], i);
+        for (std::uint64_t& sum : hash.of)
+            for (unsigned distance = warp_threads / 2; distance > 0; distance /= 2)
+                sum += __shfl_xor_sync(all_lanes, sum, static_cast<int>(distance));
+        if (lane_index() == 0) hashes[p] = hash;
+    });
+}
+
+}  // namespace
+
+AttributeOnDevice::AttributeOnDevice(const CodedAttribute& form, const std::byte* on_device)
+    : values(on_device),
+      components(static_cast<std::uint32_t>(form.components)),
+      exact_bytes(static_cast<std::uint32_t>(size_of(form.type) * form.components)),
+      coded_bytes(static_cast<std::uint32_t>(form.coded_bytes())),
+      bits(form.bits) {
+    for (std::size_t c = 0; form.bits != 0 && c < form.components; ++c) range[c] = CodedRange(form, c);
+}
+
+void pack_bricks(const LatticeOnDevice& mesh, const PackedForm& form, const PackedPlace* places, std::uint32_t count,
+                 std::byte* out, const Launcher& launch) {
+    launch(count, 1, write_bricks, mesh, form, places, count, out);
+}
+
+void pack_attribute(const LatticeOnDevice& mesh, const PackedForm& form, const AttributeOnDevice& attribute,
+                    std::uint32_t bytes_before, const PackedPlace* places, std::uint32_t count, std::byte* out,
+                    const Launcher& launch) {
+    launch(count, 1, write_attribute, mesh, form, attribute, bytes_before, places, count, out);
+}
+
+void hash_packed_bricks(const PackedPlace* places, std::uint32_t count, const std::byte* bytes, PackedHash* hashes,
+                        const Launcher& launch) {
+    launch(count, block_warps, sum_words, places, count, bytes, hashes);
+}
+
+}  // namespace meniscus::cuda
