@@ -15,6 +15,7 @@ void add_lattice_tables(CLI::App& app);
 void add_goals(CLI::App& app);
 void add_upload(CLI::App& app);
 void add_service(CLI::App& app);
+void add_delivery(CLI::App& app);
 void add_quality(CLI::App& app);
 
 }  // namespace meniscus::benchmarks

@@ -24,5 +24,7 @@ int main(int argc, char** argv) {
     meniscus::benchmarks::add_same(app);
     meniscus::benchmarks::add_exact(app);
     meniscus::benchmarks::add_kernels(app, meniscus::benchmarks::run_model);
+    meniscus::benchmarks::add_transfers(app);
+    meniscus::benchmarks::add_check(app);
     return meniscus::benchmarks::run_program(app, argc, argv);
 }

@@ -3,9 +3,12 @@
 
 import csv
 import json
+import os
 import shutil
+import signal
 import subprocess
 import sys
+import tarfile
 import tempfile
 from pathlib import Path
 
@@ -75,6 +78,83 @@ def check_kernels(bench, folder):
     check(report["commit"] and len(report["rows"]) == len(rows), "kernels: the JSON")
 
 
+def check_transfers(bench, folder):
+    run(bench, "transfers", "--bytes", 1 << 20, "--repeats", 2, "--out", folder)
+    rows = rows_of(folder, "transfers")
+    whats = [r["what"] for r in rows]
+    check(whats == ["first touch", *["up pageable"] * 2, *["down pageable"] * 2, "pin", *["up pinned"] * 2,
+                    *["down pinned"] * 2, "unpin"], f"transfers: {whats}")  # fmt: skip
+    check(all(float(r["seconds"]) > 0 for r in rows), "transfers: a time")
+
+
+def results_of(folder):
+    """The rows in the one file that comes home."""
+    with tarfile.open(folder.with_name(folder.name + ".tar.gz")) as archive:
+        text = archive.extractfile("check.csv").read().decode()
+        names = archive.getnames()
+    return list(csv.DictReader(text.splitlines())), names
+
+
+def program(folder, name, script):
+    path = folder / name
+    path.write_text("#!/bin/sh\n" + script)
+    path.chmod(0o755)
+
+
+def check_check(bench, folder):
+    steps = [line.split()[0] for line in run(bench, "check", "--particles", 640, "--list").stdout.splitlines()]
+    check(steps[:2] == ["device", "transfers"] and steps[-1] == "same-rest", f"check: steps are {steps}")
+    # The sizes of a GPU take too long here.
+    slow = ("exact", "kernels-uniform", "kernels-adaptive", "same-large", "same-threads", "same-rest")
+    out = folder / "whole"
+    run(bench, "check", "--particles", 640, "--out", out, "--only",
+        *[step for step in steps if step not in slow])  # fmt: skip
+    rows, names = results_of(out)
+    results = {r["step"]: r["result"] for r in rows}
+    passed = {"transfers", "same-small", "same-million", "kernels-small"}
+    check({s for s in results if results[s] == "passed"} >= passed, f"check: {rows}")
+    check(results["delivery"] == "not run" and results["tests"] == "not run", f"check: {rows}")
+    check({"check.csv", "check.json", "same-small.log", "same-small/same.csv"} <= set(names), f"check: has {names}")
+
+    # The last step takes what time there is.
+    run(bench, "check", "--only", "same-rest", "--seconds", 3, "--out", folder / "rest")
+    rows, _ = results_of(folder / "rest")
+    check([r["result"] for r in rows] == ["cut off"], f"check: {rows}")
+
+    # A step that fails runs in two other ways; the program is found in PATH.
+    beside = folder / "beside"
+    beside.mkdir()
+    environment = {**os.environ, "PATH": f"{beside}:{os.environ['PATH']}"}
+    words = [bench, "check", "--only", "tests", "--out"]
+    program(beside, "cuda_test", '[ "$MENISCUS_COOPERATIVE_BLOCKS" = 1 ] || { echo out of step; exit 3; }\n')
+    done = subprocess.run([*words, folder / "failing"], env=environment, capture_output=True, text=True, check=False)
+    rows, _ = results_of(folder / "failing")
+    ways = [(r["way"], r["result"], r["exit_code"], r["detail"]) for r in rows]
+    expected = [
+        ("", "failed", "3", "out of step"),
+        ("MENISCUS_NO_GRAPH=1", "failed", "3", "out of step"),
+        ("MENISCUS_COOPERATIVE_BLOCKS=1", "passed", "0", ""),
+    ]
+    check(done.returncode == 1 and ways == expected, f"check: {ways}")
+
+    # Told to end, it ends what runs, and leaves its results.
+    began = folder / "began"
+    os.mkfifo(began)
+    program(beside, "cuda_test", f"echo $$ >{began}\nexec sleep 600\n")
+    words.append(folder / "ended")
+    with subprocess.Popen(words, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as running:
+        process = began.read_text().strip()
+        running.send_signal(signal.SIGTERM)
+        running.wait()
+    rows, _ = results_of(folder / "ended")
+    check([(r["way"], r["result"]) for r in rows][0] == ("", "cut off"), f"check: {rows}")
+    check(not Path(f"/proc/{process}").exists(), "check: what it has started goes on")
+    check(
+        "no-step" in run(bench, "check", "--only", "no-step", "--out", folder / "none", expect=2).stderr,
+        "check: --only",
+    )
+
+
 def main():
     bench, emulated = sys.argv[1:]
     with tempfile.TemporaryDirectory() as temporary:
@@ -82,9 +162,11 @@ def main():
         check_same(emulated, folder)
         check_exact(emulated, folder)
         check_kernels(emulated, folder)
+        check_transfers(emulated, folder)
+        check_check(emulated, folder)
         if shutil.which("nvidia-smi"):
             return
-        for command in ("same", "exact", "kernels"):
+        for command in ("same", "exact", "kernels", "transfers", "check"):
             check("GPU" in run(bench, command, expect=77).stderr, f"{command}: says why it does not run")
 
 

@@ -41,15 +41,15 @@ std::optional<double> of_a_million(const Json& scaling, WaterKind water, Field f
     return {};
 }
 
-/// Seconds of splashsurf for the same million splashing particles, the field without smoothing, on all processors:
-/// gpu-check leaves them.
+/// Seconds of splashsurf for the same million splashing particles, the field without smoothing, on all processors,
+/// where someone has measured them.
 std::optional<double> seconds_of_splashsurf(const std::filesystem::path& folder) {
     const std::filesystem::path path = folder / "splashsurf.json";
     std::ifstream in(path);
     if (!in) return {};
     const Json report = Json::parse(in, nullptr, false);
     if (!report.is_object() || !report.contains("seconds"))
-        throw InvalidInput(path.string() + " has no \"seconds\": let gpu-check write it again");
+        throw InvalidInput(path.string() + " has no \"seconds\": write {\"seconds\": S} into it");
     return report.at("seconds").get<double>();
 }
 

@@ -21,6 +21,9 @@ void add_same(CLI::App& app) {
 void add_exact(CLI::App& app) {
     add_absent(app, "exact", "What the backend takes for granted of a GPU: this build has no CUDA backend");
 }
+void add_transfers(CLI::App& app) {
+    add_absent(app, "transfers", "Copies to the GPU and back: this build has no CUDA backend");
+}
 void add_kernels(CLI::App& app, void (*run_model)(const KernelsOptions&)) {
     static void (*model)(const KernelsOptions&) = nullptr;
     model = run_model;

@@ -21,6 +21,9 @@ void require_gpu();
 
 void add_same(CLI::App& app);
 void add_exact(CLI::App& app);
+void add_transfers(CLI::App& app);
+/// Runs the others, and more programs.
+void add_check(CLI::App& app);
 /// run_model: for --model.
 struct KernelsOptions;
 void add_kernels(CLI::App& app, void (*run_model)(const KernelsOptions&));

@@ -1,4 +1,4 @@
-// The launches of a frame, and the time of each on the GPU, by an event before and behind it.
+// The launches of a frame, and the time of each on the GPU, by an event before and behind it, in a queue that is full.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 
 #include "engine/cuda/launch_observer.hpp"
 #include "engine/cuda/stream.hpp"
+#include "gpu/full_queue.hpp"
 
 namespace meniscus::benchmarks {
 
@@ -28,6 +29,8 @@ public:
 
     void before(const cuda::Launch& launch) override {
         if (!is_wanted(launch)) return;
+        // Else what lies between two events would hold the host's launch, where the GPU is ahead of it.
+        if (used_ == 0) keep_busy(launch.stream);
         if (used_ == timed_.size()) timed_.emplace_back();
         timed_[used_].launch = launch;
         timed_[used_].begin.record(launch.stream);
