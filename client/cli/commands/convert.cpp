@@ -106,15 +106,17 @@ struct ConvertFlags {
     bool mesh = false;
 };
 
-/// A recording is many frames: OUT is a folder, unless it was written as if it were a file, or a sequence of files.
-void require_folder(const std::string& recording, const std::string& out) {
+/// A recording or a publication is many frames: OUT is a folder, unless it was written as if it were a file, or a
+/// sequence of files.
+void require_folder(const std::string& in, const std::string& out) {
     std::error_code error;
     const std::string extension = formats::lower_extension(out);
     const std::string format = extension.empty() ? extension : extension.substr(1);
     const bool sequence = FilePattern(out).has_number();
     if (!sequence && (!find_by_name<MeshFormat>(format) || std::filesystem::is_directory(out, error))) return;
-    throw InvalidInput(recording + " has many frames: OUT is a folder, in which each frame gets its file, not '" + out +
-                       "'; say -o FOLDER" + (find_by_name<MeshFormat>(format) ? " --format " + format : ""));
+    throw InvalidInput(in + " is a " + (client::is_publication(in) ? "publication" : "recording") +
+                       ": OUT is a folder, in which each frame gets its file, not '" + out + "'; say -o FOLDER" +
+                       (find_by_name<MeshFormat>(format) ? " --format " + format : ""));
 }
 
 /// A recording has both. Without a flag, vtk are its particles.

@@ -220,6 +220,7 @@ cudaError_t cudaEventSynchronize(cudaEvent_t event) {
     return cudaSuccess;
 }
 cudaError_t cudaEventQuery(cudaEvent_t event) {
+    if (captures) return cudaErrorStreamCaptureUnsupported;
     const std::lock_guard lock(device);
     return event->stream == nullptr || event->stream->done >= event->after ? cudaSuccess : cudaErrorNotReady;
 }
