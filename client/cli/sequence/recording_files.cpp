@@ -28,6 +28,9 @@ std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& fo
 
 bool is_recording(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path) || path.extension() == files::recording_extension) return true;
+    // To open a pipe would wait for its writer, and take the bytes that are to be refused or read.
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) return false;
     std::string beginning(files::recording_magic.size(), '\0');
     std::ifstream in(path, std::ios::binary);
     return in.read(beginning.data(), static_cast<std::streamsize>(beginning.size())) &&
