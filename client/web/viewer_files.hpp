@@ -20,7 +20,7 @@ std::span<const File> files();
 /// The viewer as one page, as gzip: single_page.mjs says what is written into it. Empty where the viewer was not built.
 std::span<const unsigned char> single_page();
 
-/// What the viewer's page may load: files of its own, some of which are WebAssembly.
+/// The sources that the viewer's page may load: files of its own, some of which are WebAssembly.
 inline constexpr std::string_view content_policy =
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self'; "
     "connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; ";

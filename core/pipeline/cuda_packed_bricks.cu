@@ -9,7 +9,7 @@
 namespace meniscus::cuda {
 namespace {
 
-/// What packed bytes mean depends on the ranges of their attributes.
+/// The meaning of packed bytes depends on the ranges of their attributes.
 void add_forms(const std::vector<CodedAttribute>& forms, PackedHash& hash) {
     // Behind all words that a brick may have.
     std::uint64_t index = std::uint64_t{1} << 32;

@@ -24,7 +24,7 @@ struct BrickOnDevice {
     KeptBrick kept;
 };
 
-/// A finished mesh on the device: what a download copies from.
+/// A finished mesh on the device, from which a download copies.
 struct MeshOnDevice {
     DeviceMesh mesh;
     const MeshBrick* bricks = nullptr;

@@ -22,7 +22,7 @@ namespace meniscus::cuda {
 /// Vertices come down whole, since bricks share them; then triangles, some bricks at a time; or nothing of both, where
 /// bricks are packed. Nothing is on its way between two calls.
 class PendingMesh final : public MeshDownload::Source {
-    /// Work with the device. What it throws, every later call throws again.
+    /// Work with the device. Its exception is thrown again by every later call.
     template <class Work>
     auto guarded(const Work& work) {
         const CopyTime::Span span(*time_);

@@ -116,7 +116,7 @@ def check_check(bench, folder):
     check(results["delivery"] == "not run" and results["tests"] == "not run", f"check: {rows}")
     check({"check.csv", "check.json", "same-small.log", "same-small/same.csv"} <= set(names), f"check: has {names}")
 
-    # The last step takes what time there is.
+    # The last step takes the rest of the time.
     run(bench, "check", "--only", "same-rest", "--seconds", 3, "--out", folder / "rest")
     rows, _ = results_of(folder / "rest")
     check([r["result"] for r in rows] == ["cut off"], f"check: {rows}")
@@ -137,7 +137,7 @@ def check_check(bench, folder):
     ]
     check(done.returncode == 1 and ways == expected, f"check: {ways}")
 
-    # Told to end, it ends what runs, and leaves its results.
+    # Told to end, it ends its child, and leaves its results.
     began = folder / "began"
     os.mkfifo(began)
     program(beside, "cuda_test", f"echo $$ >{began}\nexec sleep 600\n")

@@ -21,7 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A segment is closed so long after its first frame, though no other comes.
+/// Time from a segment's first frame to its end, though no other frame comes.
 constexpr std::chrono::milliseconds longest_segment{1000};
 /// How long an interrupt waits for the last segment.
 constexpr std::chrono::milliseconds longest_end{500};

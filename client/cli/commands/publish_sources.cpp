@@ -24,7 +24,7 @@
 namespace meniscus::cli {
 namespace {
 
-/// A writer of frames that are all there already, and what is said of them.
+/// A writer of frames that are all there already, and its messages.
 class Publisher {
 public:
     Publisher(const PublishCommand& command, const std::optional<Settings>& settings,

@@ -74,7 +74,7 @@ PublishedSegment read(const v1::PublishedSegment& wire, const std::string& name)
             .run_id = wire.run_id()};
 }
 
-/// Those of a later version may have what this one does not know.
+/// The settings of a later version may have fields that this one does not know.
 std::optional<Settings> settings_of(const v1::Settings& wire) {
     try {
         Settings settings = conversion::from_wire(wire);

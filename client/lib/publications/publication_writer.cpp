@@ -20,7 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A segment's file stays so long after the manifest has dropped it: readers may have the manifest of before.
+/// Time between the manifest's drop of a segment and the removal of its file. A reader may still hold the manifest that
+/// lists it.
 constexpr std::chrono::seconds readers_delay{30};
 
 std::filesystem::path made(std::filesystem::path folder) {
@@ -130,7 +131,7 @@ private:
         }
     }
 
-    /// Leaves segments out of the manifest that are older than what is kept.
+    /// Leaves segments out of the manifest that are older than the seconds that are kept.
     void drop_old() {
         if (!options_.keep_seconds) return;
         double newer = 0.0;
@@ -159,7 +160,7 @@ private:
         }
     }
 
-    /// Removes what a writer that was killed has made and not named.
+    /// Removes files that a killed writer has made and not listed.
     void remove_strangers() {
         std::error_code ignored;
         for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored))

@@ -27,7 +27,7 @@ struct BitWord {
         if (filled < 64) return;
         store(bits);
         filled -= 64;
-        // What did not fit; a shift by 64 would be undefined.
+        // The bits that did not fit; a shift by 64 would be undefined.
         bits = filled == 0 ? 0 : value >> (count - filled);
     }
 };

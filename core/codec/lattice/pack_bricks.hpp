@@ -16,7 +16,7 @@
 
 namespace meniscus::cuda {
 
-/// A mesh on the device, with what is kept of its lattice: device pointers.
+/// A mesh on the device and the kept part of its lattice: device pointers.
 struct LatticeOnDevice {
     const LatticePosition* vertices = nullptr;
     const Normal* normals = nullptr;

@@ -21,7 +21,7 @@ bool uses_graphs();
 
 /// The most blocks of a kernel that waits for its whole grid: MENISCUS_COOPERATIVE_BLOCKS; with 1 no block waits for
 /// another, which tells whether one that hangs does. 0 where the variable is unset: as many as run at once. Throws
-/// InvalidInput for what is not a number from 1 on.
+/// InvalidInput for a text that is no number from 1 on.
 unsigned most_cooperative_blocks();
 
 }  // namespace meniscus::cuda

@@ -8,7 +8,7 @@
 
 namespace meniscus::cuda {
 
-/// What a brick writes, or what it has written before a block.
+/// Counts of a brick's sections, or of their parts before a block.
 struct BrickTotals {
     std::uint32_t signs = 0;    ///< corner points
     std::uint32_t middles = 0;  ///< middles of crossed coarse edges, and of their halves, that are no corners

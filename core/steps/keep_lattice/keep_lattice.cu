@@ -103,7 +103,7 @@ __device__ unsigned outer_mixed_faces(const ClosedBrick& brick, const Int3& at, 
     return faces;
 }
 
-/// What the host keeps of a block.
+/// The host's copy of a block's facts.
 __device__ LatticeBlock lattice_block(const BlocksView& blocks, std::uint32_t number, int place, int level) {
     LatticeBlock block;
     block.place = static_cast<std::uint16_t>(place);

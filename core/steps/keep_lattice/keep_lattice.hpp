@@ -45,7 +45,7 @@ MENISCUS_HD inline unsigned coarser_beyond_brick(const BlocksView& blocks, std::
     return faces;
 }
 
-/// What find_brick_edges() finds of a block.
+/// The result of find_brick_edges() for a block.
 struct BrickEdges {
     BlockMask& inside;    ///< signs of the corners; those of middles and quarters are added
     BlockMask& middles;   ///< middles of crossed coarse edges that are no corners

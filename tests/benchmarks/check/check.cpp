@@ -94,7 +94,7 @@ private:
         const CommandEnd end =
             run_command(command, (fs::path(options_.out) / (name + ".log")).string(), std::min(left, step.seconds));
         const bool has_passed = end.exit_code == 0 && !end.is_cut_off;
-        // The last step takes what time there is, and none is at fault where the run is told to end.
+        // The last step takes the rest of the time, and none is at fault where the run is told to end.
         const bool is_open_end = end.is_cut_off && (left <= step.seconds || is_asked_to_end());
         if (!has_passed && !is_open_end && command.environment.empty()) ++failed_;
         add(step, way, has_passed ? "passed" : end.is_cut_off ? "cut off" : "failed", end);

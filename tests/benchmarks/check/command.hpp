@@ -23,7 +23,7 @@ struct CommandEnd {
 /// output goes to the file `log`. Throws std::runtime_error if it cannot be run.
 CommandEnd run_command(const Command& command, const std::string& log, double seconds);
 
-/// From here on those signals end what run_command() runs, and this process goes on.
+/// From here on those signals end the child of run_command(), and this process goes on.
 void end_commands_on_signals();
 /// Whether one has come.
 bool is_asked_to_end();

@@ -1,4 +1,4 @@
-// What a first run on a GPU asks, in the order of what the answers tell.
+// The steps of a first run on a GPU, the most telling first.
 #pragma once
 
 #include <cstddef>

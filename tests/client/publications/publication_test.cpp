@@ -1,4 +1,4 @@
-// What is published is read back, whatever happens to the writer between.
+// Published frames are read back, whatever happens to the writer between.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -140,7 +140,7 @@ TEST(Publication, GoesOnAfterAWriterThatWasKilled) {
         PublicationWriter writer(folder.path(), published_settings(), {});
         for (std::uint64_t i = 0; i < 30; ++i) writer.add(row.frame(i), frame_seconds);
     }
-    // What such a writer may leave behind it.
+    // Files that such a writer may leave behind it.
     const std::string nobodys(64, 'a');
     for (const char* const name : {".segment", ".segment.partial"}) std::ofstream(folder / (nobodys + name)) << "half";
     std::ofstream(folder / "index.html") << "somebody's";

@@ -12,7 +12,7 @@
 
 namespace meniscus::server::test {
 
-/// What was asked of the mesh.
+/// The requests that the mesh has had.
 struct AskedFor {
     int meshes = 0;
     std::vector<std::size_t> bricks;

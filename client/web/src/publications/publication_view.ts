@@ -12,7 +12,7 @@ import { FileMissing, FileUnavailable, type PublicationFiles } from './publicati
 
 /** ms between two looks at the manifest of a publication that grows. */
 const lookEvery = 500;
-/** Where more than so many seconds are still to be shown of one that grows, some are left out. */
+/** Seconds of unshown frames of a growing publication, beyond which the player leaves some out. */
 const furthestBehind = 3;
 /** Of a segment that says none, ms for a frame. */
 const standardPace = 40;

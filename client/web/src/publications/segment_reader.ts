@@ -78,7 +78,7 @@ export class SegmentReader {
   }
 }
 
-/** What is wrong with the index; none: nothing is. bytes: of the frames' messages. */
+/** The index's fault, in words; none: it has none. bytes: of the frames' messages. */
 function faultOf(frames: readonly SegmentFrame[], segment: Segment, bytes: number): string | undefined {
   if (frames.length !== segment.frames) return `it has ${frames.length} frames; the manifest says ${segment.frames}`;
   let end = 0n;

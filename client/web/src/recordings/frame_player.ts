@@ -8,7 +8,7 @@ import { RecordingFrames, type ReadFrames } from './recording_frames';
 /** Some seconds of a large mesh. */
 const limits = { ahead: 24, frames: 300, bytes: 192 << 20 };
 
-/** What is played. Places count from 0. */
+/** The frames that are played. Places count from 0. */
 export interface Film {
   /** The place behind the last frame, when it is opened. */
   readonly length: number;

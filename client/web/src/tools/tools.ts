@@ -258,7 +258,7 @@ export class Tools {
     this.beside.setPaused(state.kind === 'paused');
   }
 
-  /** What is known of what is looked at. */
+  /** The known facts about the source in view. */
   describe(facts: SceneFacts): void {
     this.facts = facts;
     this.applyFacts();

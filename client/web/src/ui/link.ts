@@ -65,7 +65,7 @@ function short(text: string): string {
   return text.length > 64 ? `${text.slice(0, 64)}…` : text;
 }
 
-/** What a page without a server can show. */
+/** The views of a page without a server. */
 export function withoutServer(state: PageState): PageState {
   const kept: { -readonly [Field in keyof PageState]: PageState[Field] } = { ...state };
   delete kept.session;
@@ -74,7 +74,7 @@ export function withoutServer(state: PageState): PageState {
   return kept;
 }
 
-/** What a publication's page shows besides stands in the address itself. */
+/** The address itself has the other parts of a publication's page. */
 export function writeLink(state: PageState): string {
   const { session, recording, position, speed, loop, camera, look, up, ...tools } = state;
   const fields = new URLSearchParams();

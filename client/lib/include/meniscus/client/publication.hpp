@@ -34,7 +34,7 @@ struct PublishedSegment {
     std::string file() const;
 };
 
-/// What a manifest says.
+/// The content of a manifest.
 struct PublicationInfo {
     SessionDescription description;
     /// None where this version does not understand them: meshes do not need them to be read.
@@ -42,7 +42,7 @@ struct PublicationInfo {
     std::vector<FrameAttribute> attributes;  ///< that vertices carry; ranges are over all frames that were published
     NormalsBy normals_by = NormalsBy::server;
     bool live = false;              ///< whether more frames may come
-    std::uint64_t left_frames = 0;  ///< before the first segment, which are no longer there
+    std::uint64_t left_frames = 0;  ///< before the first segment; their files are gone
     std::uint64_t frames = 0;       ///< of all segments
     std::uint64_t bytes = 0;        ///< of all segments
     std::vector<PublishedSegment> segments;
