@@ -21,10 +21,6 @@ std::string device_name(int) {
 
 int main(int argc, char** argv) {
     CLI::App app("meniscus-bench's commands for a GPU, on the device in software", "meniscus-bench-emulated");
-    meniscus::benchmarks::add_same(app);
-    meniscus::benchmarks::add_exact(app);
-    meniscus::benchmarks::add_kernels(app, meniscus::benchmarks::run_model);
-    meniscus::benchmarks::add_transfers(app);
-    meniscus::benchmarks::add_check(app);
+    meniscus::benchmarks::add_gpu_commands(app, meniscus::benchmarks::run_model);
     return meniscus::benchmarks::run_program(app, argc, argv);
 }

@@ -18,10 +18,6 @@ int main(int argc, char** argv) {
     meniscus::benchmarks::add_service(app);
     meniscus::benchmarks::add_delivery(app);
     meniscus::benchmarks::add_quality(app);
-    meniscus::benchmarks::add_same(app);
-    meniscus::benchmarks::add_exact(app);
-    meniscus::benchmarks::add_kernels(app, meniscus::benchmarks::run_model_elsewhere);
-    meniscus::benchmarks::add_transfers(app);
-    meniscus::benchmarks::add_check(app);
+    meniscus::benchmarks::add_gpu_commands(app, meniscus::benchmarks::run_model_elsewhere);
     return meniscus::benchmarks::run_program(app, argc, argv);
 }

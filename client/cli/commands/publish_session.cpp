@@ -15,6 +15,7 @@
 #include "meniscus/client/publication_writer.hpp"
 #include "meniscus/client/session_lookup.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/seconds.hpp"
 
 namespace meniscus::cli {
 namespace {
@@ -25,10 +26,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds longest_segment{1000};
 /// How long an interrupt waits for the last segment.
 constexpr std::chrono::milliseconds longest_end{500};
-
-double seconds_between(Clock::time_point from, Clock::time_point to) {
-    return std::chrono::duration<double>(to - from).count();
-}
 
 class LivePublisher {
 public:
@@ -65,9 +62,9 @@ private:
         const Clock::time_point now = Clock::now();
         if (!writer_.is_open()) opened_at_ = now;
         // A pause of the simulator is not one of the viewers.
-        const double since = last_ ? seconds_between(*last_, now) : files::published_frame_seconds;
+        const double since = last_ ? seconds_of(now - *last_) : files::published_frame_seconds;
         last_ = now;
-        writer_.add(frame, std::min(since, std::chrono::duration<double>(longest_segment).count()));
+        writer_.add(frame, std::min(since, seconds_of(longest_segment)));
     }
 
     const PublishCommand& command_;

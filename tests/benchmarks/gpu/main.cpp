@@ -7,10 +7,6 @@
 
 int main(int argc, char** argv) {
     CLI::App app("meniscus-bench's commands for a GPU", "meniscus-bench-gpu");
-    meniscus::benchmarks::add_same(app);
-    meniscus::benchmarks::add_exact(app);
-    meniscus::benchmarks::add_kernels(app, meniscus::benchmarks::run_model_elsewhere);
-    meniscus::benchmarks::add_transfers(app);
-    meniscus::benchmarks::add_check(app);
+    meniscus::benchmarks::add_gpu_commands(app, meniscus::benchmarks::run_model_elsewhere);
     return meniscus::benchmarks::run_program(app, argc, argv);
 }

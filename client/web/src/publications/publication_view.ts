@@ -39,17 +39,8 @@ export class PublicationView {
     private readonly playback: Playback,
     private readonly events: PublicationViewEvents,
   ) {
-    this.player = new FramePlayer(screen, playback, {
-      state: (kind) => {
-        this.backoff.reset();
-        this.events.state({ kind });
-      },
-      restsAt: (position) => {
-        this.events.restsAt(position);
-      },
-      failed: (error) => {
-        this.fail(error);
-      },
+    this.player = new FramePlayer(screen, playback, this.backoff, events, (error) => {
+      this.fail(error);
     });
   }
 
@@ -181,7 +172,7 @@ function filmOf(publication: Publication): Film {
   };
 }
 
-/** The frame after this one of a publication that grows; one of its newest segment where too much is still to be shown. */
+/** The frame after this one of a publication that grows; its newest segment's first where too much is still unshown. */
 export function next({ segments }: Pick<Manifest, 'segments'>, position: number): number {
   let seconds = 0;
   for (let i = segments.length - 1; i >= 0; --i) {

@@ -116,7 +116,9 @@ function delimited(bytes: Uint8Array, at: number): { message: Uint8Array; end: n
   return undefined;
 }
 
-/** In lower case; of a page that came by plain HTTP from another machine browsers compute none, and none is compared. */
+/**
+ * In lower case. Browsers compute none for a page that came by plain HTTP from another machine: then none is compared.
+ */
 async function sha256Of(bytes: Uint8Array): Promise<string | undefined> {
   const subtle = (globalThis.crypto as Partial<Crypto> | undefined)?.subtle;
   if (!subtle) return undefined;

@@ -1,6 +1,7 @@
-// Frames on the screen as they are wanted, played at a steady pace: of a recording, or of a publication, which may grow.
+// Frames on the screen as they are wanted, played at a steady pace: of a recording, or of a publication that may grow.
 import type { Frame } from '../bricks/frame';
 import type { Screen } from '../screen';
+import type { Backoff } from '../stream/backoff';
 import type { Playback, Reel } from '../ui/playback';
 import { frameText } from '../ui/texts';
 import { RecordingFrames, type ReadFrames } from './recording_frames';
@@ -16,17 +17,18 @@ export interface Film {
   first(): number;
   /** ms from this frame to the next, at the speed 1. */
   pace(position: number): number;
-  /** Where to go on from a frame after which more are expected: the next one, or a later one to catch up. None: the film ends. */
+  /**
+   * The place to go on to from a frame after which more are expected: the next one, or a later one to catch up. None:
+   * the film ends.
+   */
   after(position: number): number | undefined;
   readonly read: ReadFrames;
 }
 
 export interface FramePlayerEvents {
-  state(kind: 'live' | 'paused'): void;
+  state(state: { readonly kind: 'live' | 'paused' }): void;
   /** Paused at this frame, by its place. */
   restsAt(position: number): void;
-  /** A frame that is wanted could not be fetched; nothing is tried until again(). */
-  failed(error: unknown): void;
 }
 
 export class FramePlayer {
@@ -36,10 +38,16 @@ export class FramePlayer {
   private drawnAt = 0;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
+  /**
+   * backoff: begins anew with each frame. failed: a frame that is wanted could not be fetched; nothing is tried until
+   * again().
+   */
   constructor(
     private readonly screen: Screen,
     private readonly playback: Playback,
+    private readonly backoff: Backoff,
     private readonly events: FramePlayerEvents,
+    private readonly failed: (error: unknown) => void,
   ) {
     document.addEventListener('visibilitychange', () => {
       if (!document.hidden) this.goOn();
@@ -58,9 +66,7 @@ export class FramePlayer {
       frame: (frame, at) => {
         this.take(frame, at);
       },
-      failed: (error) => {
-        this.events.failed(error);
-      },
+      failed: this.failed,
       received: (bytes) => {
         this.screen.overlay.receivedBytes(bytes);
       },
@@ -175,6 +181,7 @@ export class FramePlayer {
   }
 
   private reportState(): void {
-    this.events.state(this.playback.paused ? 'paused' : 'live');
+    this.backoff.reset();
+    this.events.state({ kind: this.playback.paused ? 'paused' : 'live' });
   }
 }

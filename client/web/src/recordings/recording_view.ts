@@ -35,17 +35,8 @@ export class RecordingView {
     private readonly playback: Playback,
     private readonly events: RecordingViewEvents,
   ) {
-    this.player = new FramePlayer(screen, playback, {
-      state: (kind) => {
-        this.backoff.reset();
-        this.events.state({ kind });
-      },
-      restsAt: (position) => {
-        this.events.restsAt(position);
-      },
-      failed: (error) => {
-        this.fail(error);
-      },
+    this.player = new FramePlayer(screen, playback, this.backoff, events, (error) => {
+      this.fail(error);
     });
   }
 
