@@ -59,7 +59,8 @@ async function measureBehind(browser) {
   const folder = mkdtempSync(join(tmpdir(), 'meniscus-web-'));
   try {
     const server = await startServer();
-    const { session } = startSimulator(server, { particles: 1000 });
+    const { session, begun } = startSimulator(server, { particles: 1000 });
+    await begun();
     await startPublisher(server, session, join(folder, 'site'), '--page');
     startWatcher(server, session, join(folder, 'watched'));
     const host = await startHost(join(folder, 'site'));

@@ -126,6 +126,7 @@ describe('a publication', { skip: missing }, () => {
     const simulator = startSimulator(server, { particles: 1000 });
     const to = join(folder, 'live');
     host = await startHost(folder);
+    await simulator.begun();
     const first = await startPublisher(server, simulator.session, to);
     const page = await open(`${host.url}viewer/?publication=../live/`);
     await surface(page);

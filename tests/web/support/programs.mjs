@@ -30,7 +30,10 @@ async function printed(child, pattern) {
     const match = pattern.exec(child.output);
     if (match) return match;
     if (child.exitCode !== null) throw new Error(`${child.spawnfile} ended: ${child.output}`);
-    await Promise.race([once(child.stderr, 'data', { signal: guard }), once(child, 'exit', { signal: guard })]);
+    await Promise.race([
+      ...[child.stdout, child.stderr].map((stream) => once(stream, 'data', { signal: guard })),
+      once(child, 'exit', { signal: guard }),
+    ]);
   }
 }
 
@@ -80,6 +83,8 @@ export function startUploader(server, args, session = randomUUID()) {
   const child = start(meniscus, [...args, '--session', session, '--server', server.address]);
   return {
     session,
+    /** Resolves once a frame has been answered: the session is there. */
+    begun: () => printed(child, /^frame \d+/m),
     /** Resolves when all has been sent. */
     finished: async () => {
       await child.ended;
