@@ -81,6 +81,7 @@ bool BytesInFlight::fits_beside_slow(const FrameInFlight& frame) const {
     std::size_t beyond = frame.announced_ - own_part(frame);
     for (const FrameInFlight* each : frames_) {
         if (each == &frame || !each->admitted_ || each->arrived_ == each->announced_ || !each->is_slow(now)) continue;
+        if (each->admitted_at_ >= frame.due_since()) continue;
         bytes += each->announced_;
         beyond += each->announced_ - each->own_;
     }
@@ -112,6 +113,7 @@ bool BytesInFlight::admit(FrameInFlight& frame) {
     }
     frame.own_ = own;
     frame.admitted_ = true;
+    frame.admitted_at_ = now_();
     frame.session_->booked += own;
     booked_ += own;
     if (name != nullptr) name->announced += frame.announced_;
@@ -195,8 +197,12 @@ void FrameInFlight::begin_to_wait(std::function<void()> waiter, Clock::time_poin
 
 std::function<void()> FrameInFlight::end_to_wait(Clock::time_point now) {
     const bool was_due = waited_ >= BytesInFlight::patience;
+    const Clock::time_point due = due_since();
     waited_ += now - std::exchange(since_, now);
-    if (!was_due && waited_ >= BytesInFlight::patience) sending_ = {};
+    if (!was_due && waited_ >= BytesInFlight::patience) {
+        due_since_ = due;
+        sending_ = {};
+    }
     return std::exchange(waiter_, nullptr);
 }
 
@@ -204,6 +210,10 @@ bool FrameInFlight::is_due(Clock::time_point now) const {
     const auto passed = now - since_;
     return waiter_ ? waited_ + passed >= BytesInFlight::patience
                    : waited_ >= BytesInFlight::patience && sending_ + passed < BytesInFlight::patience;
+}
+
+FrameInFlight::Clock::time_point FrameInFlight::due_since() const {
+    return waited_ >= BytesInFlight::patience ? due_since_ : since_ + (BytesInFlight::patience - waited_);
 }
 
 bool FrameInFlight::is_slow(Clock::time_point now) const {
@@ -223,6 +233,8 @@ FrameInFlight::FrameInFlight(FrameInFlight&& other) noexcept : all_(other.all_),
     waited_ = std::exchange(other.waited_, {});
     sending_ = std::exchange(other.sending_, {});
     since_ = other.since_;
+    admitted_at_ = other.admitted_at_;
+    due_since_ = other.due_since_;
     std::ranges::replace(all_->frames_, &other, this);
 }
 

@@ -43,7 +43,8 @@ struct SessionInFlight {
 /// all that have begun. That cannot stop the frames that have begun, which come in by the order above, and once they
 /// are gone nothing is in the way of the next one. Whoever sends slowly gains nothing by it: a frame whose own bytes
 /// are on their way for a second is next no more, until it has waited for another second; and one for which there is no
-/// room beside such slow ones is not next before they are gone.
+/// room beside such slow ones is not next before they are gone. Slow ones that have begun since it was due do not count
+/// there: with them, slow frames in turn would keep out a large one for ever.
 ///
 /// Thread-safe.
 class BytesInFlight {
@@ -86,7 +87,7 @@ private:
     FrameInFlight* next() const;
     /// Whether the next frame has its room if this one begins, too.
     bool fits_beside(const FrameInFlight& next, const FrameInFlight& frame) const;
-    /// Whether the frame has room if those that come slowly stay.
+    /// Whether a frame that is due has room if those stay that come slowly and have begun before.
     bool fits_beside_slow(const FrameInFlight& frame) const;
     /// Whether there is room for these at once. beyond: their shares. oversized: whether one of them may have the
     /// others' shares.
@@ -140,6 +141,8 @@ private:
     std::function<void()> end_to_wait(Clock::time_point now);
     /// Whether it has waited long enough to be next.
     bool is_due(Clock::time_point now) const;
+    /// Since when it is due, if it is.
+    Clock::time_point due_since() const;
     /// Whether its bytes are on their way for long.
     bool is_slow(Clock::time_point now) const;
 
@@ -158,6 +161,8 @@ private:
     Clock::duration waited_{};   ///< for bytes, up to since_
     Clock::duration sending_{};  ///< its simulator, up to since_; from when it was next, once it is
     Clock::time_point since_;    ///< it waits, or does not
+    Clock::time_point admitted_at_;
+    Clock::time_point due_since_;  ///< of one that has waited for long enough and waits no longer
 };
 
 }  // namespace meniscus::server

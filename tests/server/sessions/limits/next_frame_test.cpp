@@ -139,6 +139,60 @@ TEST_F(NextFrame, IsNoneThatWaitsForASlowOne) {
     EXPECT_FALSE(another.waits);
 }
 
+TEST_F(NextFrame, WaitsForSlowOnesThatHadBegunAndIsNextBesideThoseThatBeganLater) {
+    Sender slow(all);
+    one.begin(600);
+    one.arrive(100);
+    pass(seconds(1));
+    another.begin(800);
+    another.arrive(800);
+    ASSERT_TRUE(another.waits);
+    pass(seconds(1));
+    slow.begin(250);
+    slow.arrive(200);
+    EXPECT_FALSE(slow.waits) << "the one that has waited waits for a slow one";
+    pass(seconds(2));
+    one.frame.release();
+    late.begin(100);
+    EXPECT_TRUE(late.waits);
+    EXPECT_TRUE(another.waits);
+    slow.arrive(50);
+    slow.frame.release();
+    EXPECT_TRUE(another.whole());
+}
+
+// As two callers can do it that send 5.9 MB each, at 120 kB/s, beside frames of 7.1 MB, where 8 MB may be in flight.
+TEST(SlowFrames, ThatTakeTurnsDoNotKeepOutALargeOne) {
+    constexpr std::size_t size = 5'900'000;
+    constexpr std::size_t in_a_step = 12'000;
+    constexpr milliseconds step{100};
+    constexpr int upload = size / in_a_step + 1;
+    DrivenBytes bytes(8'000'000, 16);
+    std::deque<Sender> slow;
+    std::deque<Sender> small;
+    for (int i = 0; i < 2; ++i) slow.emplace_back(bytes.all);
+    for (int i = 0; i < 6; ++i) small.emplace_back(bytes.all);
+    Sender large(bytes.all);
+    const auto send = [](Sender& stream, std::size_t all, std::size_t part) {
+        if (stream.waits) return;
+        if (stream.announced == 0 || stream.whole())
+            stream.begin(all);
+        else
+            stream.arrive(part);
+    };
+    int at = 0;
+    for (; large.announced == 0 || !large.whole(); ++at) {
+        ASSERT_LE(at, 200 + 3 * upload) << "those that had begun, and one that began since";
+        for (int i = 0; i < 2; ++i)
+            if (at >= 70 * i) send(slow[static_cast<std::size_t>(i)], size, in_a_step);
+        for (Sender& stream : small) send(stream, 720'000, 240'000);
+        if (at >= 200) send(large, 7'100'000, 2'400'000);
+        if (at % 10 == 0) bytes.all->look_again();
+        bytes.now += step;
+    }
+    RecordProperty("waited_tenths_of_a_second", at - 200);
+}
+
 TEST_F(NextFrame, IsNoneThatWaitsForItsNamesShare) {
     const auto name = std::make_shared<NameInFlight>();
     name->limit = 800;
@@ -318,6 +372,7 @@ private:
         std::array<Stage, 3> stages{};
         std::array<int, 3> waited{};  ///< 1: for a second
         std::array<int, 3> sent{};    ///< likewise
+        std::array<int, 3> late{};    ///< of those that have waited for a second, as its frame began
         bool broken = false;
     };
 
@@ -336,6 +391,7 @@ private:
                 Sender& stream = world->streams[i];
                 if (world->stages[i] == Stage::idle) {
                     world->stages[i] = Stage::comes;
+                    for (std::size_t j = 0; j < 3; ++j) world->late[i] += world->waited[j] << j;
                     stream.begin(sizes_[i]);
                 } else if (!stream.whole()) {
                     stream.arrive(1);
@@ -365,12 +421,12 @@ private:
         for (std::size_t i = 0; i < 3; ++i) {
             const Sender& stream = world.streams[i];
             for (const int part : {static_cast<int>(world.stages[i]), static_cast<int>(stream.arrived),
-                                   stream.waits ? 1 : 0, world.waited[i], world.sent[i]})
+                                   stream.waits ? 1 : 0, world.waited[i], world.sent[i], world.late[i]})
                 key += static_cast<char>('0' + part);
         }
         // The order of the announcements.
         for (const char event : path)
-            if (event != 't' && key.find(event, 15) == std::string::npos) key += event;
+            if (event != 't' && key.find(event, 18) == std::string::npos) key += event;
         const std::size_t last = path.find_last_not_of('t');
         return key + std::string(path.size() - (last == std::string::npos ? 0 : last + 1), 't');
     }
