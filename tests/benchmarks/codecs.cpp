@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -19,6 +18,7 @@
 #include "meniscus/mesh_normals.hpp"
 #include "meniscus/reconstructor.hpp"
 #include "report.hpp"
+#include "thread_time.hpp"
 #include "warm_runs.hpp"
 
 namespace meniscus::benchmarks {
@@ -34,13 +34,6 @@ struct CodecOptions {
     bool receiver_normals = false;
     std::string out = "tests/benchmarks/results";
 };
-
-/// Seconds of this thread's processor time. These machines' clocks tell of their neighbors, too.
-double thread_seconds() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 double seconds_of(const auto& work) {
     const double start = thread_seconds();

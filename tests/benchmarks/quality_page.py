@@ -340,7 +340,7 @@ water keeps its shape, against the movement of the water.""",
     "levels": """
 Triangles adaptive over uniform, distance between the two surfaces, components lost:""",
     "times": """
-Times, warm, one thread:""",
+Processor times, warm, one thread:""",
     "heights": """
 Triangles adaptive over uniform of frame 258, by its shift along y in cells:""",
 }

@@ -15,7 +15,7 @@ void measure_levels(const std::vector<Settings>& fields, const std::vector<Cloud
 /// matters.
 void measure_heights_on_lattice(const std::vector<Settings>& fields, const Cloud& frame, Figures& figures);
 
-/// Warm times of both modes, on one thread: medians of `runs`, all fields and modes in turn.
+/// Warm processor times of both modes, on one thread: medians of `runs`, all fields and modes in turn.
 void measure_times(const std::vector<Settings>& fields, const std::vector<Cloud>& frames, unsigned runs,
                    Figures& figures);
 
