@@ -32,6 +32,7 @@ using formats::ParticleFormat;
 
 struct ConvertOptions {
     RecordingSelection recording;
+    std::optional<Share> share;
     std::string directory;
     std::optional<MeshFormat> format = MeshFormat::ply;  ///< none: the particles
     ParticleFormat particle_format = ParticleFormat::vtk;
@@ -78,7 +79,8 @@ void check_outputs(const ConvertOptions& options, const formats::Recording& reco
 
 void convert_recording(const ConvertOptions& options) {
     const formats::Recording recording = options.recording.open();
-    const auto frames = recording.frames(options.recording.from, options.recording.to);
+    auto frames = recording.frames(options.recording.from, options.recording.to);
+    if (options.share) options.share->keep(frames);
     check_outputs(options, recording, frames);
     if (!formats::is_standard_stream(options.directory)) formats::make_directory(options.directory);
     for (const formats::RecordedFrame& frame : frames) {
@@ -128,6 +130,7 @@ ConvertOptions recording_options(const ConvertFlags& flags) {
     ConvertOptions options;
     options.recording = flags.recording;
     options.recording.path = flags.files.in;
+    options.share = flags.files.share;
     options.directory = flags.files.out;
     options.verbosity = flags.files.verbosity;
     const auto& format = flags.files.format;
@@ -150,7 +153,7 @@ PublicationConversion publication_options(const ConvertFlags& flags) {
                            " is a publication: its frames are chosen by --from and --to, and it has one format");
     PublicationConversion conversion{.publication = flags.files.in,
                                      .out = flags.files.out,
-                                     .range = {flags.recording.from, flags.recording.to},
+                                     .range = {flags.recording.from, flags.recording.to, flags.files.share},
                                      .quiet = flags.files.verbosity.quiet};
     if (flags.files.format) conversion.format = *find_by_name<MeshFormat>(*flags.files.format);
     conversion.edits.without_levels = flags.files.without_levels;
@@ -216,6 +219,7 @@ void add_convert(CLI::App& app) {
     flags->recording.add_range_to(command);
     add_read_limits(command, files.limits);
     files.selection.add_to(command);
+    add_share_option(command, files.share);
     files.verbosity.add_quiet_to(command);
     add_examples(command,
                  {"meniscus convert recordings/SESSION/000001.recording -o meshes",

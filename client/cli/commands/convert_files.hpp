@@ -6,6 +6,7 @@
 
 #include "cli/options/verbosity.hpp"
 #include "cli/sequence/frame_selection.hpp"
+#include "cli/sequence/share.hpp"
 #include "formats/bytes/read_limits.hpp"
 #include "formats/particles/particle_formats.hpp"
 
@@ -22,6 +23,7 @@ struct FileConversion {
     bool without_levels = false;              ///< meshes are written without the levels of their triangles
     formats::ReadLimits limits;
     FrameSelection selection;
+    std::optional<Share> share;  ///< of a sequence; none: all of it
     Verbosity verbosity;
 };
 

@@ -181,7 +181,7 @@ void Reconstruction::run_here() {
 void Reconstruction::run_on_server() {
     std::vector<std::vector<FileWarning>> warnings(plan_.frames.size());  // each is there before its frame is submitted
     std::vector<Statistics> runs;
-    if (plan_.skipped() > 0 && settings_.all_attributes) name_attributes();
+    if (plan_.frames.size() < plan_.all.size() && settings_.all_attributes) name_attributes();
     SurfacesOptions there = place();
     there.stream.spray = settings_.spray == Spray::points;
     const auto surfaces = there.open(settings_, [&](Surface& surface) {

@@ -23,6 +23,8 @@ std::vector<FrameFiles> frames_of(const ReconstructFiles& files) {
     in.require_no_other_notation();
     if (!sequence && files.selection.is_given())
         throw InvalidInput("--start, --end, --step and --skip-missing need {} in IN, which is '" + files.in + "'");
+    if (!sequence && files.share)
+        throw InvalidInput("--share is a part of a sequence: it needs {} in IN, which is '" + files.in + "'");
     if (!sequence && files.frame_rate)
         throw InvalidInput("--frame-rate gives the frames of a sequence their times: it needs {} in IN, which is '" +
                            files.in + "'");
@@ -74,6 +76,10 @@ void check_list(const std::string& option, const std::string& file, std::string_
     if (file.empty()) return;
     if (!plan.sequence || files.out.empty())
         throw InvalidInput(option + " lists the meshes of a sequence: give IN and -o OUT with {}");
+    if (files.share)
+        throw InvalidInput(option +
+                           " lists the whole sequence: once all shares are done, give the same command with "
+                           "--skip-existing in place of --share");
     if (plan.format != format)
         throw InvalidInput(option + " lists ." + std::string(name_of(format)) + " files, and the meshes are '" +
                            std::string(name_of(plan.format)) + "'");
@@ -116,6 +122,7 @@ void ReconstructFiles::add_to(CLI::App& command) {
 
 void ReconstructFiles::add_sequence_to(CLI::App& command) {
     selection.add_to(command);
+    add_share_option(command, share);
     const OptionGroup group(command, sequence_heading);
     command.add_flag("--skip-existing", skip_existing,
                      "Leave the frames alone whose outputs are all there: a run that was interrupted goes on");
@@ -142,8 +149,14 @@ Plan make_plan(const ReconstructFiles& files) {
     check_files(files, plan);
     check_list("--pvd", files.pvd, ".pvd", MeshFormat::vtp, files, plan);
     check_list("--usd-stage", files.usd_stage, ".usda", MeshFormat::usda, files, plan);
-    for (const FrameFiles& frame : plan.all)
-        if (!files.skip_existing || !is_done(frame)) plan.frames.push_back(frame);
+    plan.frames = plan.all;
+    if (files.share) files.share->keep(plan.frames);
+    if (files.skip_existing) plan.skipped = std::erase_if(plan.frames, is_done);
+    // A stage says what its frames have, which one that is made tells.
+    if (plan.frames.empty() && !files.usd_stage.empty()) {
+        plan.frames.push_back(plan.all.front());
+        --plan.skipped;
+    }
     return plan;
 }
 

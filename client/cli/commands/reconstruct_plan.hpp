@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/sequence/frame_selection.hpp"
+#include "cli/sequence/share.hpp"
 #include "cli/surfaces/mesh_output.hpp"
 #include "formats/particles/particle_formats.hpp"
 
@@ -27,6 +28,7 @@ struct ReconstructFiles {
     std::string pvd;
     std::string usd_stage;
     FrameSelection selection;
+    std::optional<Share> share;  ///< of a sequence; none: all of it
     bool skip_existing = false;
     std::optional<double> frame_rate;  ///< of a sequence; none: frames have no times
 
@@ -48,9 +50,8 @@ struct Plan {
     bool sequence = false;
     MeshFormat format = MeshFormat::ply;
     std::vector<FrameFiles> frames;  ///< to be reconstructed
-    std::vector<FrameFiles> all;     ///< those and the skipped ones, in order
-
-    std::size_t skipped() const { return all.size() - frames.size(); }
+    std::vector<FrameFiles> all;     ///< those, the skipped ones and those of other shares, in order
+    std::size_t skipped = 0;         ///< of this share
 };
 
 /// Looks at the names of all files before any work. Throws InvalidInput for what is missing, contradicts itself, or

@@ -25,9 +25,13 @@ ReconstructReport::ReconstructReport(const ReconstructFiles& files, const Plan& 
       bar_(plan.frames.size(),
            options_.bar && plan.frames.size() > 1 && !options_.verbosity.quiet && !options_.verbosity.verbose),
       warnings_(options_.strict) {
-    if (plan_.skipped() == 0 || options_.verbosity.quiet) return;
+    if (options_.verbosity.quiet) return;
     bar_.erase();
-    std::cerr << plan_.skipped() << " of " << plan_.all.size() << " frames skipped: their files are there\n";
+    const std::size_t frames = plan_.frames.size() + plan_.skipped;
+    if (files_.share)
+        std::cerr << "share " << files_.share->text() << ": " << frames << " of " << plan_.all.size() << " frames\n";
+    if (plan_.skipped != 0)
+        std::cerr << plan_.skipped << " of " << frames << " frames skipped: their files are there\n";
 }
 
 FinishedFrame ReconstructReport::prepare(Surface& surface, std::size_t index, std::vector<Statistics> runs) const {
@@ -71,12 +75,6 @@ void ReconstructReport::say_run(std::size_t run, std::size_t runs, const Statist
 }
 
 void ReconstructReport::write_usd_stage() const {
-    // Where all frames were skipped, nobody knows what they have.
-    if (!form_) {
-        if (!std::filesystem::exists(files_.usd_stage))
-            throw InvalidInput(files_.usd_stage + ": not written, as all frames were skipped: make one of them anew");
-        return;
-    }
     std::vector<formats::UsdaClip> clips;
     for (const FrameFiles& frame : plan_.all) clips.push_back({static_cast<double>(frame.number), frame.out});
     formats::write_usda_clips(files_.usd_stage, clips, *form_);

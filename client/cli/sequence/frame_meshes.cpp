@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <utility>
+#include <vector>
 
 #include "cli/sequence/recording_files.hpp"
 #include "meniscus/client/publication.hpp"
@@ -24,16 +25,19 @@ std::string frame_name(const std::filesystem::path& path, std::uint64_t index) {
 void for_each_published(const std::filesystem::path& path, const FrameRange& range, const TakeFrame& take) {
     client::Publication publication(path);
     std::uint64_t place = publication.info().left_frames;
-    bool any = false;
+    std::vector<std::uint64_t> places;
     for (const client::PublishedSegment& segment : publication.info().segments) {
         const std::uint64_t end = place + segment.frames;
         if (segment.last_frame < range.first || segment.first_frame > range.last) place = end;
-        for (; place < end; ++place) {
-            const client::ReceivedFrame frame = publication.frame(place);
-            if (frame.index < range.first || frame.index > range.last) continue;
-            take(frame_name(path, frame.index), frame);
-            any = true;
-        }
+        for (; place < end; ++place) places.push_back(place);
+    }
+    if (range.share) range.share->keep(places);
+    bool any = range.share.has_value();
+    for (const std::uint64_t each : places) {
+        const client::ReceivedFrame frame = publication.frame(each);
+        if (frame.index < range.first || frame.index > range.last) continue;
+        take(frame_name(path, frame.index), frame);
+        any = true;
     }
     if (!any) refuse_range(path, range);
 }
@@ -42,13 +46,11 @@ void for_each_recorded(const std::filesystem::path& path, const FrameRange& rang
     RecordingSelection selection;
     selection.path = path.string();
     const formats::Recording recording = selection.open();
-    bool any = false;
-    for (const formats::RecordedFrame& frame : recording.frames()) {
-        if (!frame.mesh || frame.index < range.first || frame.index > range.last) continue;
-        take(frame_name(path, frame.index), recording.mesh(frame));
-        any = true;
-    }
-    if (!any) refuse_range(path, range);
+    auto frames = recording.frames(range.first, range.last);
+    std::erase_if(frames, [](const formats::RecordedFrame& frame) { return !frame.mesh; });
+    if (frames.empty()) refuse_range(path, range);
+    if (range.share) range.share->keep(frames);
+    for (const formats::RecordedFrame& frame : frames) take(frame_name(path, frame.index), recording.mesh(frame));
 }
 
 client::ReceivedFrame newest_published(const std::filesystem::path& path) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/sequence/share.hpp"
 #include "meniscus/client/received_frame.hpp"
 
 namespace CLI {
@@ -22,12 +23,14 @@ bool has_frames(const std::filesystem::path& path);
 struct FrameRange {
     std::uint64_t first = 0;
     std::uint64_t last = ~std::uint64_t{0};
+    std::optional<Share> share{};  ///< of them; none: all
 };
 
 /// name: of the frame, for messages.
 using TakeFrame = std::function<void(const std::string& name, const client::ReceivedFrame& frame)>;
 
-/// Gives each frame of the range that has a mesh, in order. Throws InvalidInput if there is none.
+/// Gives each frame of the range that has a mesh, in order. Throws InvalidInput if there is none,
+/// but for a share that has none.
 void for_each_frame(const std::filesystem::path& path, const FrameRange& range, const TakeFrame& take);
 
 /// The newest frame, or that of an index, of which the last counts. Throws InvalidInput if there is none.

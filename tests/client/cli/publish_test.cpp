@@ -63,6 +63,61 @@ TEST_F(Publish, GoesOnWithFramesThatAreNotThereYet) {
     expect_refused(publish("site", {"-c", "1"}), {"other settings"});
 }
 
+TEST_F(Publish, InSharesHasTheMeshesOfOneProcess) {
+    expect_done(publish("one"));
+    expect_done({"convert", path("one"), "-o", path("one_m")});
+    for (const char* const share : {"3/3", "1/3"}) expect_done(publish("shared", {"--share", share}));
+    EXPECT_FALSE(std::filesystem::exists(path("shared/manifest.json")));
+    expect_refused(publish("shared"), {"share 2 of 3 is not done", "--share 2/3"});
+    expect_done(publish("shared", {"--share", "2/3"}));
+    const ProcessResult result = run_meniscus(publish("shared"));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("6 were there before"), std::string::npos) << "nothing is made anew: " << result.err;
+    EXPECT_FALSE(std::filesystem::exists(path("shared/share-1-of-3")));
+    EXPECT_EQ(manifest("shared")["frames"], "6");
+    EXPECT_EQ(manifest("shared")["live"], false);
+    for (const char* const share : {"1/2", "2/2"})
+        expect_done({"convert", path("shared"), "-o", path("shared_m"), "--share", share});
+    for (int i = 10; i < 10 + frame_count; ++i) EXPECT_TRUE(converted("shared_m", i) == converted("one_m", i)) << i;
+}
+
+TEST_F(Publish, TakesSharesOnceWhereverItIsKilled) {
+    for (const char* const share : {"1/2", "2/2"}) expect_done(publish("shared", {"--share", share}));
+    std::filesystem::copy(path("shared"), path("before"), std::filesystem::copy_options::recursive);
+    expect_done(publish("shared"));
+    const nlohmann::json whole = manifest("shared");
+    // Before any folder of a share was removed, in the middle of it, and before the last one was.
+    for (const std::vector<std::string>& left :
+         {std::vector<std::string>{"share-1-of-2", "share-2-of-2"}, {"share-2-of-2"}, {"share-1-of-2"}}) {
+        for (const std::string& folder : left)
+            std::filesystem::copy(path("before/" + folder), path("shared/" + folder),
+                                  std::filesystem::copy_options::recursive);
+        expect_done(publish("shared"));
+        EXPECT_EQ(manifest("shared"), whole);
+        EXPECT_FALSE(std::filesystem::exists(path("shared/" + left.front())));
+    }
+    expect_done({"check", path("shared")});
+}
+
+TEST_F(Publish, AShareThatWasKilledIsNotTakenForWhole) {
+    expect_done(publish("shared", {"--share", "1/2"}));
+    expect_done(publish("shared", {"--share", "2/2"}));
+    nlohmann::json killed = manifest("shared/share-1-of-2");
+    killed["live"] = true;
+    formats::write_file(path("shared/share-1-of-2/manifest.json"), killed.dump());
+    expect_refused(publish("shared"), {"share 1 of 2 is not done"});
+    expect_done(publish("shared", {"--share", "1/2"}));
+    expect_done(publish("shared"));
+    EXPECT_EQ(manifest("shared")["frames"], "6");
+}
+
+TEST_F(Publish, RefusesASharesFlagsThatAreOfTheWhole) {
+    expect_refused(publish("site", {"--share", "1/2", "--page"}), {"--share", "--page"});
+    expect_refused(publish("site.html", {"--share", "1/2", "--single-file"}), {"--share", "--single-file"});
+    expect_refused(publish("site", {"--share", "1/2", "--keep", "5"}), {"--share", "--keep"});
+    expect_refused({"publish", in_, "--to", path("site"), "-r", "0.5", "--share", "1/2"}, {"--share", "{}"});
+}
+
 TEST_F(Publish, TakesTheFramesThatAreWantedInTheFormThatIsWanted) {
     expect_done(publish("all"));
     expect_done(publish("some", {"--every", "2", "--start", "11", "--frame-rate", "10", "--normals-by", "receiver",

@@ -263,6 +263,40 @@ TEST_F(Sequences, HaveTheAttributesOfTheFirstFrameEvenIfItIsSkipped) {
     EXPECT_TRUE(formats::read_file(path("b_1.npz")) == whole);
 }
 
+TEST_F(Sequences, AreTheSameInSharesAndGoOnWhereAShareWasKilled) {
+    ASSERT_EQ(run_meniscus(sequence("whole", {"-q"})).exit_code, 0);
+    for (const char* const share : {"2/5", "5/5", "1/5", "4/5"}) {
+        const ProcessResult result = run_meniscus(sequence("shared", {"--share", share, "--skip-existing"}));
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_EQ(result.err.find("skipped"), std::string::npos) << "no share looks at the others' frames";
+    }
+    EXPECT_FALSE(std::filesystem::exists(mesh("shared", 6))) << "of the third share, which has not run";
+    ASSERT_EQ(run_meniscus(sequence("shared", {"--share", "3/5", "-q"})).exit_code, 0);
+    std::filesystem::remove(mesh("shared", 6));
+    const ProcessResult result = run_meniscus(sequence("shared", {"--share", "3/5", "--skip-existing"}));
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("share 3 of 5: 2 of 12 frames\n1 of 2 frames skipped"), std::string::npos) << result.err;
+    expect_same_meshes("whole", "shared");
+    EXPECT_EQ(run_meniscus(sequence("shared", {"--share", "40/40"})).exit_code, 0) << "it has none";
+}
+
+TEST_F(Sequences, AreListedOnceAllSharesAreDone) {
+    std::vector<std::string> arguments{"reconstruct", path("f_{}.xyz"), "-o",          path("l_{}.vtp"), "-r", "0.5",
+                                       "-q",          "--pvd",          path("l.pvd"), "--share",        "1/1"};
+    expect_refused(arguments, {"--pvd", "--skip-existing", "--share"});
+    expect_refused({"reconstruct", in_, "-o", out_, "-r", "0.5", "--share", "1/2"}, {"--share", "{}"});
+    expect_refused({"convert", in_, "-o", path("one.npz"), "--share", "1/2"}, {"--share", "{}"});
+}
+
+TEST_F(Sequences, AreConvertedInShares) {
+    for (const char* const share : {"1/2", "2/2"})
+        ASSERT_EQ(run_meniscus({"convert", path("f_{}.xyz"), "-o", path("c_{}.npz"), "--share", share}).exit_code, 0);
+    for (int i = 0; i < frame_count; ++i) EXPECT_TRUE(std::filesystem::exists(path("c_" + number(i) + ".npz"))) << i;
+    ASSERT_EQ(run_meniscus({"convert", path("f_{}.xyz"), "-o", path("d_{}.npz"), "--share", "2/12"}).exit_code, 0);
+    for (int i = 0; i < frame_count; ++i)
+        EXPECT_EQ(std::filesystem::exists(path("d_" + number(i) + ".npz")), i == 1) << i;
+}
+
 TEST_F(Sequences, RefuseJobsWhereThereIsNothingToShare) {
     expect_refused(sequence("m", {"--jobs", "2", "--repeat", "2"}), {"--jobs", "--repeat"});
     expect_refused(sequence("m", {"--jobs", "0"}), {"--jobs", "0"});
@@ -302,7 +336,8 @@ TEST_F(Sequences, AreOnAUsdStageWithTheFramesThatWereThere) {
     ASSERT_EQ(run_meniscus(arguments).exit_code, 0);
     EXPECT_EQ(formats::read_file(path("u.usda")), stage);
     std::filesystem::remove(path("u.usda"));
-    expect_refused(arguments, {"u.usda", "all frames were skipped"});
+    ASSERT_EQ(run_meniscus(arguments).exit_code, 0) << "all frames are there";
+    EXPECT_EQ(formats::read_file(path("u.usda")), stage);
     expect_refused(sequence("m", {"--usd-stage", path("u.usda")}), {"--usd-stage", "usda", "ply"});
 }
 

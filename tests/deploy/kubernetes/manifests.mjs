@@ -1,10 +1,15 @@
 // The overlays, as kubectl renders them.
 import { spawnSync } from 'node:child_process';
+import { readFileSync } from 'node:fs';
 import { parseAllDocuments } from 'yaml';
 
 export const overlays = ['laptop', 'gpu-host', 'cluster'];
 export const kubectl = process.env.KUBECTL ?? 'kubectl';
-const folder = new URL('../../../deploy/kubernetes/overlays/', import.meta.url).pathname;
+const root = new URL('../../../deploy/kubernetes/', import.meta.url).pathname;
+const folder = `${root}overlays/`;
+
+/** The job that shares a sequence out, which no overlay has. */
+export const sequence = () => objects(readFileSync(`${root}sequence/job.yaml`, 'utf8'));
 
 export function render(overlay) {
   const { status, stdout, stderr } = spawnSync(kubectl, ['kustomize', folder + overlay], { encoding: 'utf8' });

@@ -1,13 +1,33 @@
 // The objects of each overlay agree with each other.
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
-import { named, of, one, overlays, podsOf, portNumber, render, settings, workloads } from './manifests.mjs';
+import { named, of, one, overlays, podsOf, portNumber, render, sequence, settings, workloads } from './manifests.mjs';
 
 const pod = (workload) => workload.spec.template.spec;
 const bytes = (quantity) =>
   Number.parseFloat(quantity) *
   { '': 1, Ki: 2 ** 10, Mi: 2 ** 20, Gi: 2 ** 30, M: 2 ** 20, G: 2 ** 30 }[quantity.replace(/^[\d.]+/, '')];
 const host = 'kubernetes.io/hostname';
+
+function assertNoRights(workload) {
+  const { securityContext, automountServiceAccountToken, enableServiceLinks, volumes, hostNetwork, hostPID } =
+    pod(workload);
+  assert.equal(automountServiceAccountToken, false, named(workload));
+  assert.equal(enableServiceLinks, false, named(workload));
+  assert.equal(securityContext.runAsNonRoot, true, named(workload));
+  assert.ok(securityContext.runAsUser > 0 && securityContext.runAsGroup > 0, named(workload));
+  assert.deepEqual(securityContext.seccompProfile, { type: 'RuntimeDefault' }, named(workload));
+  assert.ok(!hostNetwork && !hostPID && !volumes.some(({ hostPath }) => hostPath), named(workload));
+  for (const { name, securityContext: own, ports = [] } of pod(workload).containers) {
+    assert.equal(own.allowPrivilegeEscalation, false, name);
+    assert.equal(own.readOnlyRootFilesystem, true, name);
+    assert.deepEqual(own.capabilities, { drop: ['ALL'] }, name);
+    assert.ok(
+      ports.every(({ hostPort }) => !hostPort),
+      name,
+    );
+  }
+}
 
 for (const overlay of overlays) {
   describe(overlay, () => {
@@ -30,27 +50,7 @@ for (const overlay of overlays) {
       assert.equal(one(all, 'Namespace').metadata.labels['pod-security.kubernetes.io/enforce'], 'restricted');
     });
 
-    test('gives its pods no rights', () => {
-      for (const workload of workloads(all)) {
-        const { securityContext, automountServiceAccountToken, enableServiceLinks, volumes, hostNetwork, hostPID } =
-          pod(workload);
-        assert.equal(automountServiceAccountToken, false, named(workload));
-        assert.equal(enableServiceLinks, false, named(workload));
-        assert.equal(securityContext.runAsNonRoot, true, named(workload));
-        assert.ok(securityContext.runAsUser > 0 && securityContext.runAsGroup > 0, named(workload));
-        assert.deepEqual(securityContext.seccompProfile, { type: 'RuntimeDefault' }, named(workload));
-        assert.ok(!hostNetwork && !hostPID && !volumes.some(({ hostPath }) => hostPath), named(workload));
-        for (const { name, securityContext: own, ports } of pod(workload).containers) {
-          assert.equal(own.allowPrivilegeEscalation, false, name);
-          assert.equal(own.readOnlyRootFilesystem, true, name);
-          assert.deepEqual(own.capabilities, { drop: ['ALL'] }, name);
-          assert.ok(
-            ports.every(({ hostPort }) => !hostPort),
-            name,
-          );
-        }
-      }
-    });
+    test('gives its pods no rights', () => workloads(all).forEach(assertNoRights));
 
     test('bounds what its pods take', () => {
       for (const workload of workloads(all)) {
@@ -222,5 +222,19 @@ describe('the proxy', () => {
       services.map(({ metadata }) => metadata.name),
       ['meniscus-proxy'],
     );
+  });
+});
+
+describe('the job of a sequence', () => {
+  const [job] = sequence();
+  const [container] = pod(job).containers;
+
+  test('gives its pods no rights', () => assertNoRights(job));
+
+  test('tells each pod of how many it is', () => {
+    assert.equal(job.spec.completionMode, 'Indexed');
+    const { value } = container.env.find(({ name }) => name === 'JOB_COMPLETIONS');
+    assert.equal(value, String(job.spec.completions));
+    assert.ok(container.args.includes('--share=auto') && container.args.includes('--skip-existing'));
   });
 });

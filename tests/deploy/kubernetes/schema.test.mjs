@@ -1,12 +1,14 @@
 // Every object of every overlay is one that Kubernetes knows.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { objects, overlays, render } from './manifests.mjs';
+import { objects, overlays, render, sequence } from './manifests.mjs';
 import { problemsOf } from './schema.mjs';
 
 for (const overlay of overlays) {
   test(`${overlay} keeps to the schemas`, async () => assert.deepEqual(await problemsOf(render(overlay)), []));
 }
+
+test('the job of a sequence keeps to the schemas', async () => assert.deepEqual(await problemsOf(sequence()), []));
 
 test('objects that do not keep to them are reported', async () => {
   const pod = (spec) =>
