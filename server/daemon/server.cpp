@@ -22,9 +22,11 @@
 #include "metrics/limit_gauges.hpp"
 #include "metrics/process_metrics.hpp"
 #include "metrics/prometheus_metrics.hpp"
+#include "metrics/publication_metrics.hpp"
 #include "metrics/recording_metrics.hpp"
 #include "metrics/session_gauges.hpp"
 #include "process/open_work.hpp"
+#include "publishing/publications.hpp"
 #include "recording/recording_reads.hpp"
 #include "recording/recording_tidying.hpp"
 #include "recording/recording_writer.hpp"
@@ -38,10 +40,12 @@
 #include "rpc/services/standard_services.hpp"
 #include "security/access.hpp"
 #include "security/trusted_peers.hpp"
+#include "sessions/limits/refusal.hpp"
 #include "sessions/session/session_registry.hpp"
 #include "web/frame_ancestors.hpp"
 #include "web/http_server.hpp"
 #include "web/observation_pages.hpp"
+#include "web/published_files.hpp"
 #include "web/viewer_pages.hpp"
 
 namespace meniscus::server {
@@ -81,11 +85,19 @@ BackendOptions for_sessions(BackendOptions backend, const BackendDescription& fo
     return backend;
 }
 
-Observe record_with(RecordingWriter* recordings) {
-    if (recordings == nullptr) return nullptr;
-    return [recordings](const SessionIdentity& identity, const Settings& settings) {
-        return std::make_shared<SessionRecording>(*recordings, identity.id, settings, identity.owner,
-                                                  identity.kind.description);
+/// Each may be null: nothing is recorded, nothing published.
+Observe observe_with(RecordingWriter* recordings, Publications* publications) {
+    return [=](const SessionIdentity& identity, const Settings& settings) {
+        if (identity.kind.publish && publications == nullptr)
+            throw Refusal(Refusal::Kind::failed_precondition,
+                          "this server publishes nothing: start it with --publish, or create the session without "
+                          "publish");
+        SessionObservers observers;
+        if (recordings != nullptr)
+            observers.push_back(std::make_shared<SessionRecording>(*recordings, identity.id, settings, identity.owner,
+                                                                   identity.kind.description));
+        if (identity.kind.publish) observers.push_back(publications->observe(identity, settings));
+        return observers;
     };
 }
 
@@ -109,6 +121,11 @@ void require_http(const ServerOptions& options) {
     if (!options.insecure && !options.tls.any()) require_loopback("--http", options.http);
 }
 
+void require_publishable(const ServerOptions& options) {
+    if (options.publishing.enabled && options.http.empty())
+        throw InvalidInput("--publish serves files over the HTTP port, which is off: give --http HOST:PORT");
+}
+
 void require_tokens_for_all(const ServerOptions& options) {
     if (!options.tokens.empty() && (options.reflection || options.channelz))
         throw InvalidInput(fmt::format("{} cannot be had with --tokens: gRPC answers it without asking for one",
@@ -118,6 +135,7 @@ void require_tokens_for_all(const ServerOptions& options) {
 void require_closed_to_others(const ServerOptions& options) {
     require_listen(options);
     require_http(options);
+    require_publishable(options);
     require_tokens_for_all(options);
 }
 
@@ -149,6 +167,12 @@ std::size_t own_descriptors(const ServerOptions& options, const BackendDescripti
     return own;
 }
 
+/// Publications that are kept of sessions that have ended.
+std::size_t most_ended(const Limits& limits) {
+    constexpr std::size_t where_unlimited = 256;
+    return limits.sessions != 0 ? limits.sessions : where_unlimited;
+}
+
 ConnectionShares shares_of(const ServerOptions& options, const BackendDescription& backend) {
     return share_descriptors(descriptor_limit(), own_descriptors(options, backend), options.limits.connections);
 }
@@ -164,6 +188,7 @@ std::vector<std::string> problems_of(const ServerOptions& options) {
     const std::vector<std::function<void()>> steps{
         [&] { require_listen(options); },
         [&] { require_http(options); },
+        [&] { require_publishable(options); },
         [&] { require_tokens_for_all(options); },
         [&] { AllowedOrigins(options.web_origins, options.http); },
         [&] { FrameAncestors{options.web_frame_ancestors}; },
@@ -221,6 +246,7 @@ private:
     const Limits limits_;  ///< in force: connections as far as there are descriptors
     const std::shared_ptr<PrometheusMetrics> metrics_;
     const std::unique_ptr<RecordingWriter> recordings_;  ///< none: nothing is recorded
+    const std::unique_ptr<Publications> publications_;   ///< none: nothing is published
     SessionRegistry registry_;
     const std::unique_ptr<RecordingReads> recording_reads_;  ///< none: nothing is recorded
     const std::unique_ptr<RecordingTidying> tidying_;        ///< none: nothing is recorded
@@ -249,8 +275,10 @@ Server::Impl::Impl(const ServerOptions& options)
       limits_(in_force(options.limits, shares_)),
       metrics_(std::make_shared<PrometheusMetrics>()),
       recordings_(options.recording.directory.empty() ? nullptr : std::make_unique<RecordingWriter>(options.recording)),
+      publications_(options.publishing.enabled ? std::make_unique<Publications>(options.publishing, most_ended(limits_))
+                                               : nullptr),
       registry_(limits_, for_sessions(options.backend, backend_), threads_or_processors(options.backend.threads),
-                options.devices, metrics_, record_with(recordings_.get())),
+                options.devices, metrics_, observe_with(recordings_.get(), publications_.get())),
       recording_reads_(recordings_ ? std::make_unique<RecordingReads>(options.recording.directory,
                                                                       options.limits.recording_readers,
                                                                       options.limits.reader_patience)
@@ -259,7 +287,7 @@ Server::Impl::Impl(const ServerOptions& options)
                                 : nullptr),
       refusals_(metrics_),
       server_service_(access_.authorizer(), refusals_, backend_, threads_or_processors(options.backend.threads),
-                      limits_),
+                      limits_, publications_ != nullptr),
       session_service_(registry_, access_.authorizer(), refusals_),
       surface_service_(registry_, access_.authorizer(), refusals_, streams_, receivers_),
       recording_service_(recording_reads_.get(), access_.authorizer(), refusals_, *metrics_, receivers_),
@@ -359,15 +387,17 @@ std::unique_ptr<HttpServer> Server::Impl::open_http(const std::string& listen, c
     Router router;
     add_viewer_pages(router, frame_ancestors_);
     add_observation(router);
-    const GrpcWeb calls{.channel = grpc_->InProcessChannel({}),
-                        .origins = origins,
-                        .needs_certificate = tls && tls->mutual(),
-                        .memory = registry_.memory(),
-                        .refused = [metrics = metrics_](std::string_view target, grpc::StatusCode code) {
-                            const Metrics::Method& method = known_method(target);
-                            metrics->call_started(method);
-                            metrics->call_ended(method, metric_name_of(code), 0.0);
-                        }};
+    const GrpcWeb calls{
+        .channel = grpc_->InProcessChannel({}),
+        .origins = origins,
+        .needs_certificate = tls && tls->mutual(),
+        .memory = registry_.memory(),
+        .published = std::make_shared<PublishedFiles>(publications_.get(), access_.authorizer(), tls && tls->mutual()),
+        .refused = [metrics = metrics_](std::string_view target, grpc::StatusCode code) {
+            const Metrics::Method& method = known_method(target);
+            metrics->call_started(method);
+            metrics->call_ended(method, metric_name_of(code), 0.0);
+        }};
     HttpLimits limits;
     limits.connections = shares_.http;
     limits.streams = shares_.http * 3 / 4;
@@ -401,6 +431,7 @@ std::vector<prometheus::MetricFamily> Server::Impl::metrics() {
                          "none.",
                          "file", {{"tls_cert", expiry.server}, {"tls_client_ca", expiry.client_ca}}));
     if (recordings_) add(recording_metrics(recordings_->counters(), recording_reads_->readers()));
+    if (publications_) add(publication_metrics(publications_->counters(), publications_->count()));
     add(process_metrics());
     return all;
 }

@@ -7,6 +7,7 @@
 
 #include "meniscus/backend_options.hpp"
 #include "meniscus/described.hpp"
+#include "publishing/publishing_options.hpp"
 #include "recording/recording_options.hpp"
 #include "security/certificates.hpp"
 #include "sessions/limits/limits.hpp"
@@ -31,6 +32,7 @@ struct ServerOptions {
     std::vector<int> devices;  ///< the GPUs to use; empty: all that can reconstruct
     Limits limits;
     RecordingOptions recording;
+    PublishingOptions publishing;
     /// How long shutdown() waits for clients to take their answers.
     std::chrono::milliseconds shutdown_grace = std::chrono::seconds(10);
 
@@ -82,6 +84,7 @@ struct ServerOptions {
                .range = {.most = 3600.0},
                .argument = "SECONDS"});
         RecordingOptions::rows(self.recording, visit);
+        PublishingOptions::rows(self.publishing, visit);
     }
 };
 

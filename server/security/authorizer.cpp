@@ -87,6 +87,11 @@ Caller Authorizer::admit(std::span<const std::string_view> authorization, const 
     return *std::move(caller);
 }
 
+bool Authorizer::asks_for_tokens() const {
+    const std::lock_guard lock(mutex_);
+    return tokens_ != nullptr;
+}
+
 bool Authorizer::may_see(const Caller& caller, std::string_view owner) {
     return caller.role != Role::uploader || caller.name == owner;
 }

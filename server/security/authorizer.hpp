@@ -43,6 +43,9 @@ public:
     /// that is known, permission_denied if its role is not enough.
     Caller admit(std::span<const std::string_view> authorization, const PeerAddress& peer, Action action) const;
 
+    /// Whether calls need a token.
+    bool asks_for_tokens() const;
+
     /// Peers through which others come.
     const TrustedPeers& trusted() const noexcept { return trusted_; }
 

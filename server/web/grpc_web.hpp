@@ -1,4 +1,4 @@
-// The calls that browsers may make: those without side effects, from allowed pages.
+// The calls that browsers may make, from allowed pages: those without side effects. And the files of publications.
 #pragma once
 
 #include <grpcpp/channel.h>
@@ -10,14 +10,16 @@
 
 #include "meniscus/memory.hpp"
 #include "web/origins.hpp"
+#include "web/published_files.hpp"
 
 namespace meniscus::server {
 
 struct GrpcWeb {
     std::shared_ptr<grpc::Channel> channel;  ///< to the server in this process; none: nothing can be called
     AllowedOrigins origins;
-    bool needs_certificate = false;          ///< a client's, by TLS
-    std::shared_ptr<SharedMemory> memory{};  ///< that meshes are made in; none: is not counted
+    bool needs_certificate = false;                     ///< a client's, by TLS
+    std::shared_ptr<SharedMemory> memory{};             ///< that meshes are made in; none: is not counted
+    std::shared_ptr<const PublishedFiles> published{};  ///< none: no such files
     /// Called for a call that ends here, before its handler, with the request's target: so that metrics count it.
     std::function<void(std::string_view target, grpc::StatusCode)> refused{};
 

@@ -16,6 +16,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "meniscus/error.hpp"
 #include "meniscus/quoted.hpp"
@@ -46,7 +47,8 @@ Page preflight_page(std::string_view origin, std::string_view methods) {
     page.headers.emplace_back("Access-Control-Allow-Methods", methods);
     page.headers.emplace_back(
         "Access-Control-Allow-Headers",
-        "authorization, content-type, grpc-timeout, if-none-match, x-grpc-web, x-session-id, x-user-agent");
+        "authorization, content-type, grpc-timeout, if-none-match, if-range, range, x-grpc-web, x-session-id, "
+        "x-user-agent");
     page.headers.emplace_back("Access-Control-Max-Age", "600");
     return page;
 }
@@ -142,7 +144,8 @@ void HttpConnection::answer() {
     if (request.count(http::field::host) > 1) return refuse(400, "The request names more than one host.\n");
     is_call_ = content_.grpc_web.channel && is_method(path);
     is_mesh_ = content_.grpc_web.channel && is_mesh_target(path);
-    if ((is_call_ || is_mesh_ || content_.router.is_for_browsers(path)) && !origins.knows_host(host))
+    const bool is_published = content_.grpc_web.published && is_published_target(path);
+    if ((is_call_ || is_mesh_ || is_published || content_.router.is_for_browsers(path)) && !origins.knows_host(host))
         return refuse(
             421,
             fmt::format("This server is not known as {0}; use its address, or start it with --web-origin http://{0}\n",
@@ -152,12 +155,13 @@ void HttpConnection::answer() {
         if (request.method() == http::verb::post) return receive_call();
         return refuse(405, fmt::format("{} is not allowed here; POST is.\n", std::string(request.method_string())));
     }
-    if (is_mesh_ && !passes_origin("GET, HEAD")) return;
+    if ((is_mesh_ || is_published) && !passes_origin("GET, HEAD")) return;
     if (request.method() != http::verb::get && request.method() != http::verb::head)
         return refuse(405,
                       fmt::format("{} is not allowed here; GET and HEAD are.\n", std::string(request.method_string())));
     if (!parser_->is_done()) return refuse(413, "A body is not taken here.\n");
     if (is_mesh_) return answer_mesh();
+    if (is_published) return answer_published();
     write(content_.router.answer(path, {.accept_encoding = view(request[http::field::accept_encoding]),
                                         .if_none_match = view(request[http::field::if_none_match])}),
           request.keep_alive());
@@ -258,6 +262,29 @@ void HttpConnection::answer_mesh() {
             self->write_mesh(std::move(page));
         });
     mesh_->start();
+}
+
+void HttpConnection::answer_published() {
+    const auto& request = parser_->get();
+    const std::string_view origin = view(request[http::field::origin]);
+    std::vector<std::string_view> authorization;
+    const auto [first, last] = request.equal_range(http::field::authorization);
+    for (auto field = first; field != last; ++field) authorization.push_back(view(field->value()));
+    const bool may_come = !content_.grpc_web.needs_certificate || stream_.has_client_certificate();
+    Page page = may_come
+                    ? content_.grpc_web.published->answer({.target = view(request.target()),
+                                                           .whole = request.method() == http::verb::head,
+                                                           .if_none_match = view(request[http::field::if_none_match]),
+                                                           .range = view(request[http::field::range]),
+                                                           .if_range = view(request[http::field::if_range]),
+                                                           .authorization = authorization,
+                                                           .peer = PeerAddress::of_grpc(peer())})
+                    : page_of({grpc::StatusCode::UNAUTHENTICATED, "calls need a client's certificate"});
+    // Before its own: it knows better what it varies by.
+    auto headers = cross_origin_headers(origin);
+    headers.insert(headers.end(), page.headers.begin(), page.headers.end());
+    page.headers = std::move(headers);
+    write(std::move(page), request.keep_alive());
 }
 
 void HttpConnection::write_mesh(Page page) {

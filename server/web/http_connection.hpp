@@ -82,6 +82,7 @@ private:
     grpc::Status call_refusal(std::string_view path);
     void answer_call(boost::beast::error_code error);
     void answer_mesh();
+    void answer_published();
     void write_mesh(Page page);
     void call_ended(GrpcWebExchange::Ending ending);
     /// Refuses a request after which no other can follow on this connection.

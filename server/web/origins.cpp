@@ -95,9 +95,10 @@ bool AllowedOrigins::knows_host(std::string_view host) const {
 
 std::vector<std::pair<std::string, std::string>> cross_origin_headers(std::string_view origin) {
     if (origin.empty()) return {};
-    return {{"Access-Control-Allow-Origin", std::string(origin)},
-            {"Access-Control-Expose-Headers", "grpc-status, grpc-message, etag, x-codec, x-codec-reason"},
-            {"Vary", "Origin"}};
+    return {
+        {"Access-Control-Allow-Origin", std::string(origin)},
+        {"Access-Control-Expose-Headers", "grpc-status, grpc-message, content-range, etag, x-codec, x-codec-reason"},
+        {"Vary", "Origin"}};
 }
 
 }  // namespace meniscus::server

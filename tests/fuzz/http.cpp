@@ -10,9 +10,12 @@
 #include <boost/asio/write.hpp>
 #include <memory>
 
+#include "publishing/publications.hpp"
+#include "security/authorizer.hpp"
 #include "support.hpp"
 #include "web/accepts_gzip.hpp"
 #include "web/http_connection.hpp"
+#include "web/published_files.hpp"
 
 namespace meniscus::fuzz {
 
@@ -29,10 +32,34 @@ server::Router pages() {
     return router;
 }
 
+constexpr const char* published = "00000000-0000-4000-8000-000000000000";
+
+/// One publication of a segment with a frame without bricks.
+class Published {
+public:
+    Published() : session_(all_.observe({.id = published, .kind = {.publish = true}}, {})) {
+        auto frame = std::make_shared<server::EncodedFrame>();
+        frame->end = std::make_shared<const std::string>("end");
+        session_->encoded(std::move(frame));
+        session_->ended();
+    }
+
+    std::shared_ptr<const server::PublishedFiles> files() const {
+        return std::make_shared<server::PublishedFiles>(&all_, authorizer_, false);
+    }
+
+private:
+    const server::Authorizer authorizer_;
+    server::Publications all_{{.enabled = true, .keep = {}}, 1};
+    const std::shared_ptr<server::SessionObserver> session_;
+};
+
 /// Answers every call with UNIMPLEMENTED.
 class Calls {
 public:
-    server::GrpcWeb web() { return {.channel = server_->InProcessChannel({}), .origins = {}}; }
+    server::GrpcWeb web() {
+        return {.channel = server_->InProcessChannel({}), .origins = {}, .published = published_.files()};
+    }
 
 private:
     static std::unique_ptr<grpc::Server> start(grpc::CallbackGenericService& service) {
@@ -41,9 +68,15 @@ private:
         return builder.BuildAndStart();
     }
 
+    const Published published_;
     grpc::CallbackGenericService service_;
     std::unique_ptr<grpc::Server> server_ = start(service_);
 };
+
+std::string file(const std::string& path, const std::string& fields) {
+    return std::string("GET /publications/") + published + '/' + path + " HTTP/1.1\r\nHost: localhost\r\n" + fields +
+           "\r\n";
+}
 
 std::string call(const std::string& fields, const std::string& body) {
     return "POST /meniscus.v1.SurfaceService/Watch HTTP/1.1\r\nHost: localhost\r\nContent-Type: "
@@ -88,6 +121,9 @@ Seeds http_seeds() {
         "GET / HTTP/1.1\r\nHost: 10.0.0.1:9464\r\nAccept-Encoding: br, gzip;q=0.5\r\nIf-None-Match: W/\"1a\"\r\n\r\n",
         "OPTIONS /meniscus.v1.SurfaceService/Watch HTTP/1.1\r\nHost: [::1]:9464\r\nOrigin: "
         "http://localhost:5173\r\n\r\n",
+        file("manifest.json", "Range: bytes=2-99999999999999999999\r\nIf-Range: \"a\"\r\n"),
+        file("manifest.json", "Origin: http://localhost\r\nRange: bytes=-0\r\n"),
+        file("../%2e%2e/" + std::string(64, 'a') + ".segment", "If-None-Match: *\r\n"),
         call("grpc-timeout: 100m\r\nX-Session-Id: a\r\n", std::string(5, '\0')),
         call("Authorization: Bearer a\r\nOrigin: http://localhost\r\n", std::string("\0\0\0\0\3abc", 8)),
         "POST /meniscus.v1.ServerService/GetServerInfo HTTP/1.1\r\nHost: a\r\nContent-Type: "

@@ -1,6 +1,7 @@
 // Figures of publications in Chromium. `node measure_publications.mjs seeks FOLDER`: ms from a move of the slider to the frame's
 // picture, over random frames of a publication that `meniscus publish --page` has made. `node measure_publications.mjs behind`: how
-// long after a watcher the viewer shows the frames of a session that is published; MENISCUSD and MENISCUS name the programs.
+// long after a watcher the viewer shows the frames of a session that `meniscus publish` publishes; `behind-server`: that
+// `meniscusd --publish` does. MENISCUSD and MENISCUS name the programs.
 import { mkdtempSync, readdirSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -54,18 +55,20 @@ async function measureSeeks(browser, folder) {
   host.stop();
 }
 
-async function measureBehind(browser) {
+/** by: what publishes the session: a program beside the server, or the server itself. */
+async function measureBehind(browser, by) {
   const { startPublisher, startServer, startSimulator, startWatcher, stopAll } = await import('./support/programs.mjs');
   const folder = mkdtempSync(join(tmpdir(), 'meniscus-web-'));
   try {
-    const server = await startServer();
-    const { session, begun } = startSimulator(server, { particles: 1000 });
+    const served = by === 'server';
+    const server = await startServer({ args: served ? ['--publish'] : [] });
+    const { session, begun } = startSimulator(server, { particles: 1000, publish: served });
     await begun();
-    await startPublisher(server, session, join(folder, 'site'), '--page');
+    if (!served) await startPublisher(server, session, join(folder, 'site'), '--page');
     startWatcher(server, session, join(folder, 'watched'));
-    const host = await startHost(join(folder, 'site'));
+    const host = served ? undefined : await startHost(join(folder, 'site'));
     const page = await openPage(browser);
-    await page.goto(host.url);
+    await page.goto(host?.url ?? `${server.url}?publication=/publications/${session}/`);
     await page.waitForSelector('#view[data-frame]');
     const drawn = await page.evaluate(
       (seconds) =>
@@ -91,7 +94,7 @@ async function measureBehind(browser) {
       'behind a watcher',
       drawn.filter(([frame]) => came.has(frame)).map(([frame, at]) => at - came.get(frame)),
     );
-    host.stop();
+    host?.stop();
   } finally {
     await stopAll();
     rmSync(folder, { recursive: true });
@@ -102,8 +105,9 @@ const [what, folder] = process.argv.slice(2);
 const browser = await launch();
 try {
   if (what === 'seeks') await measureSeeks(browser, folder);
-  else if (what === 'behind') await measureBehind(browser);
-  else throw new Error(`'${what}' is neither seeks nor behind`);
+  else if (what === 'behind') await measureBehind(browser, 'program');
+  else if (what === 'behind-server') await measureBehind(browser, 'server');
+  else throw new Error(`'${what}' is none of seeks, behind and behind-server`);
 } finally {
   await browser.close();
 }

@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { after, afterEach, before, describe, it } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { missing, screenshot } from './support/browser.mjs';
-import { startHost } from './support/plain_host.mjs';
+import { hosts, startHost } from './support/plain_host.mjs';
 import { run, startPublisher, startServer, startSimulator } from './support/programs.mjs';
 import { recordedFile } from './support/recording.mjs';
 import { open, recordFrames, says, shown, state, stepBack, surface } from './support/viewer.mjs';
@@ -69,6 +69,31 @@ describe('a publication', { skip: missing }, () => {
       host.asked.join(),
     );
   });
+
+  for (const [name, rules] of Object.entries(hosts).filter(([each]) => each !== 'plain'))
+    it(`is a web site by the rules of ${name}, and found again there after a change`, async () => {
+      const site = join(folder, 'changing');
+      rmSync(site, { recursive: true, force: true });
+      cpSync(join(folder, 'site'), site, { recursive: true });
+      host = await startHost(folder, rules);
+      const page = await open(`${host.url}changing/#position=7`);
+      await shows(page, 7);
+      await page.fill('#scrub', '29');
+      await shows(page, 29);
+      assert.deepEqual(
+        host.asked.filter((path) => !path.startsWith(`/${rules.under}changing/`)),
+        [],
+      );
+      // A later run: whatever caches keep of the manifest, the page asks for it.
+      const manifest = JSON.parse(readFileSync(join(site, 'manifest.json'), 'utf8'));
+      const [first] = manifest.segments.splice(1);
+      manifest.frames = String(manifest.segments[0].frames);
+      manifest.bytes = String(manifest.segments[0].bytes);
+      assert.ok(first);
+      writeFileSync(join(site, 'manifest.json'), JSON.stringify(manifest));
+      await page.reload();
+      await page.waitForFunction((most) => document.getElementById('scrub').max === most, `${manifest.frames - 1}`);
+    });
 
   it('is played from the address that a link names, and says what is wrong with one', async () => {
     host = await startHost(folder);
@@ -151,5 +176,71 @@ describe('a publication', { skip: missing }, () => {
     assert.equal(live, true);
     for (let i = 1; i < segments.length; ++i)
       assert.ok(Number(segments[i].first_frame) > Number(segments[i - 1].last_frame), 'no frame comes twice');
+  });
+
+  it('is followed from the server that publishes it, through the death of its simulator', async () => {
+    const server = await startServer({ args: ['--publish'] });
+    const first = startSimulator(server, { particles: 1000, publish: true });
+    const { session } = first;
+    await first.begun();
+    const page = await open(`${server.url}?publication=/publications/${session}/`);
+    await surface(page);
+    await recordFrames(page);
+    const manifests = [];
+    const look = async () => {
+      const answer = await fetch(`${server.url}publications/${session}/manifest.json`);
+      assert.equal(answer.status, 200);
+      manifests.push(await answer.json());
+      return manifests.at(-1);
+    };
+    const drawn = (wanted) => page.waitForFunction((count) => window.drawn.length >= count, wanted);
+    await drawn(20);
+    await first.kill();
+    const before = await look();
+    const second = startSimulator(server, { session, particles: 1000, publish: true });
+    await second.begun();
+    const runs = (manifest) => new Set(manifest.segments.map(({ run_id }) => run_id)).size;
+    while (runs(await look()) < 2) await page.waitForEvent('response');
+    await page.waitForFunction((last) => {
+      window.again ??= window.drawn.findIndex(([frame], i) => i > 0 && frame < window.drawn[i - 1][0]);
+      if (window.again < 0) window.again = undefined;
+      return window.again !== undefined && window.drawn.length >= window.again + last;
+    }, 20);
+    await second.kill();
+    const { segments, live } = await look();
+    assert.equal(live, true, 'its session waits for another simulator');
+    // What was listed stays listed, in its order.
+    for (const { segments: earlier } of manifests)
+      assert.deepEqual(
+        earlier.map(({ sha256 }) => sha256),
+        segments.slice(0, earlier.length).map(({ sha256 }) => sha256),
+      );
+    assert.ok(before.segments.length > 0);
+    // Each frame that was reconstructed is there once, of both simulators.
+    for (const [i, { run_id, frames, first_frame, last_frame }] of segments.entries()) {
+      assert.equal(Number(last_frame) - Number(first_frame) + 1, frames);
+      const previous = segments[i - 1];
+      assert.equal(Number(first_frame), previous?.run_id === run_id ? Number(previous.last_frame) + 1 : 0);
+    }
+    const shown = (await page.evaluate(() => window.drawn)).map(([frame]) => frame);
+    const backward = shown.filter((frame, i) => i > 0 && frame < shown[i - 1]);
+    assert.equal(backward.length, 1, `once, with the second simulator: ${shown.join()}`);
+    await screenshot(page, 'publication-of-the-server');
+  });
+
+  it('is for those who may watch, and asks them for a token', async () => {
+    const tokens = join(folder, 'tokens');
+    writeFileSync(tokens, 'admin ada token-of-ada-0123456789\n', { mode: 0o600 });
+    const server = await startServer({ args: ['--publish', '--tokens', tokens] });
+    process.env.MENISCUS_TOKEN = 'token-of-ada-0123456789';
+    const simulator = startSimulator(server, { particles: 1000, publish: true });
+    delete process.env.MENISCUS_TOKEN;
+    await simulator.begun();
+    const page = await open(`${server.url}?publication=/publications/${simulator.session}/`);
+    await page.waitForSelector('#token-dialog[open]');
+    await page.fill('#token', 'token-of-ada-0123456789');
+    await page.press('#token', 'Enter');
+    await surface(page);
+    await state(page, 'live');
   });
 });

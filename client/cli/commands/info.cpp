@@ -40,7 +40,8 @@ void print_server(const ServerFlags& server) {
     print_backend(info.version, info.backend, info.backend_reason, info.device);
     std::cout << "health                 " << (client.serving() ? "serving" : "shutting down") << '\n'
               << "threads                " << info.threads << '\n'
-              << "codecs                 " << codec_names(info.codecs) << '\n';
+              << "codecs                 " << codec_names(info.codecs) << '\n'
+              << "publishes              " << (info.publishes ? "sessions that ask for it" : "nothing") << '\n';
     std::string_view heading;
     for_each_row<client::ServerInfo>([&](const auto& row) {
         const auto value = *row.find(info);

@@ -33,6 +33,7 @@ nlohmann::ordered_json session_json(const client::SessionInfo& session) {
     out["created_at"] = utc(session.created_at);
     out["settings"] = to_json(session.settings);
     out["ephemeral"] = session.ephemeral;
+    out["published"] = session.published;
     out["owner"] = session.owner;
     out["uploading"] = session.uploading;
     out["watchers"] = session.watchers;

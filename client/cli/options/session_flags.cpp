@@ -62,6 +62,11 @@ void SessionFlags::add_to(CLI::App& command, CLI::Option& server) {
         option->needs(&server);
     command.add_flag("--keep-session", keep, "With --server: leave the session, and its last surface, on the server")
         ->needs(&server);
+    command
+        .add_flag("--publish", publish,
+                  "With --server: let the server publish the session as plain files, under /publications/UUID/ of its "
+                  "HTTP port")
+        ->needs(&server);
 }
 
 }  // namespace meniscus::cli

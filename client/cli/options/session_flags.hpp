@@ -18,11 +18,12 @@ namespace meniscus::cli {
 std::vector<CLI::Option*> add_description_flags(CLI::App& command, client::SessionDescription& description,
                                                 const std::string& when);
 
-/// --session, --name, --up-axis, --length-unit and --keep-session.
+/// --session, --name, --up-axis, --length-unit, --keep-session and --publish.
 struct SessionFlags {
     std::string id;  ///< empty: a new one
     client::SessionDescription description;
     bool keep = false;
+    bool publish = false;
 
     /// server: the option that they need.
     void add_to(CLI::App& command, CLI::Option& server);

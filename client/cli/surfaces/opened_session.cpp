@@ -9,7 +9,8 @@ OpenedSession::OpenedSession(const ServerFlags& server, const SessionFlags& flag
       session_(client_.open_session(settings, {.description = flags.description,
                                                .id = flags.id,
                                                .ephemeral = flags.id.empty() && !flags.keep,
-                                               .stream_follows = true})) {
+                                               .stream_follows = true,
+                                               .publish = flags.publish})) {
     if (flags.keep) session_.leave();
     if (!session_.is_owned()) return;
     interrupts_.emplace([end = session_.ending()] {

@@ -2,7 +2,7 @@
 # installed with them. Of meniscus::c, which is shared, users need to know nothing.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS meniscus_client meniscus_address meniscus_connection meniscus_description meniscus_receiving meniscus_conversion meniscus_message_rows meniscus_proto
+install(TARGETS meniscus_client meniscus_address meniscus_connection meniscus_description meniscus_publication_files meniscus_receiving meniscus_conversion meniscus_message_rows meniscus_proto
         EXPORT MeniscusTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/client/lib/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)

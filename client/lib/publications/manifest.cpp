@@ -11,6 +11,7 @@
 #include "conversion/settings_conversion.hpp"
 #include "description/label.hpp"
 #include "files/publication_format.hpp"
+#include "files/segment_file.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/quoted.hpp"
 #include "meniscus/v1/publication.pb.h"
@@ -127,8 +128,6 @@ void take_segments(const v1::Publication& wire, const std::string& name, Publica
 
 std::string manifest_text(const PublicationInfo& info) {
     v1::Publication wire;
-    wire.set_format(std::string(files::publication_format));
-    wire.set_version(files::publication_version);
     *wire.mutable_description() = to_wire(info.description);
     if (info.settings) *wire.mutable_settings() = conversion::to_wire(*info.settings);
     v1::MeshBegin begin;
@@ -142,13 +141,7 @@ std::string manifest_text(const PublicationInfo& info) {
     wire.set_frames(info.frames);
     wire.set_bytes(info.bytes);
     for (const PublishedSegment& segment : info.segments) write(segment, *wire.add_segments());
-    google::protobuf::util::JsonPrintOptions options;
-    options.add_whitespace = true;
-    options.always_print_primitive_fields = true;
-    options.preserve_proto_field_names = true;
-    std::string text;
-    (void)google::protobuf::util::MessageToJsonString(wire, &text, options);
-    return text;
+    return files::manifest_json(std::move(wire));
 }
 
 PublicationInfo read_manifest(const std::string& name, std::string_view text) {

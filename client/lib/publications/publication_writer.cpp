@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "files/publication_format.hpp"
+#include "files/publication_window.hpp"
 #include "meniscus/error.hpp"
 #include "publications/durable_file.hpp"
 #include "publications/folder_lock.hpp"
@@ -19,10 +20,6 @@ namespace meniscus::client {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// Time between the manifest's drop of a segment and the removal of its file. A reader may still hold the manifest that
-/// lists it.
-constexpr std::chrono::seconds readers_delay{30};
 
 std::filesystem::path made(std::filesystem::path folder) {
     std::error_code error;
@@ -85,7 +82,7 @@ public:
         info_.segments.push_back(std::move(built.segment));
         drop_old();
         write_manifest();
-        remove_dropped(Clock::now() - readers_delay);
+        remove_dropped(Clock::now() - files::readers_delay);
     }
 
     void adopt(const std::filesystem::path& folder) {
@@ -170,9 +167,8 @@ private:
     /// Leaves segments out of the manifest that are older than the seconds that are kept.
     void drop_old() {
         if (!options_.keep_seconds) return;
-        double newer = 0.0;
-        std::size_t first = info_.segments.size();
-        while (first > 0 && newer < *options_.keep_seconds) newer += info_.segments[--first].seconds;
+        const std::size_t first = files::segments_beyond(
+            info_.segments, *options_.keep_seconds, [](const PublishedSegment& segment) { return segment.seconds; });
         for (std::size_t i = 0; i < first; ++i) {
             const PublishedSegment& segment = info_.segments[i];
             info_.left_frames += segment.frames;

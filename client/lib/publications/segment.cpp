@@ -1,5 +1,6 @@
 #include "publications/segment.hpp"
 
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/util/delimited_message_util.h>
 
 #include <cmath>
@@ -16,28 +17,18 @@ namespace {
 
 namespace pb = google::protobuf;
 
-void append(const pb::MessageLite& message, std::string& bytes) {
-    pb::io::StringOutputStream stream(&bytes);
-    pb::util::SerializeDelimitedToZeroCopyStream(message, &stream);
-}
-
 }  // namespace
 
 void SegmentBuilder::add(const ReceivedFrame& frame, double seconds) {
-    const std::size_t place = messages_.size();
-    give_messages(frame, last_ ? &*last_ : nullptr,
-                  [&](const pb::MessageLite& message) { append(message, messages_); });
-    // The index is far smaller than the room that is left.
-    constexpr std::size_t most = files::max_segment_bytes - (std::size_t{1} << 28);
-    if (messages_.size() > most)
-        throw LimitExceeded("frame " + std::to_string(frame.index) + " makes a segment of " +
-                            std::to_string(messages_.size()) + " bytes; one has at most " + std::to_string(most) +
-                            ": take a larger cell size");
-    v1::SegmentFrame& entry = *begin_.add_frames();
-    entry.set_index(frame.index);
-    entry.set_simulation_time(frame.simulation_time);
-    entry.set_place(place);
-    entry.set_bytes(messages_.size() - place);
+    file_.begin_frame(frame.index, frame.simulation_time);
+    give_messages(frame, last_ ? &*last_ : nullptr, [&](const pb::MessageLite& message) {
+        const std::string bytes = message.SerializeAsString();
+        if (!file_.has_room_for(bytes.size()))
+            throw LimitExceeded("frame " + std::to_string(frame.index) + " makes a segment of more than " +
+                                std::to_string(file_.bytes()) +
+                                " bytes; one has less than 2^31: take a larger cell size");
+        file_.add(bytes);
+    });
     seconds_ += seconds;
     last_ = frame;
 }
@@ -47,20 +38,17 @@ bool SegmentBuilder::can_follow(const ReceivedFrame& frame) const noexcept {
 }
 
 SegmentBuilder::Built SegmentBuilder::build() {
-    begin_.set_version(files::segment_version);
+    files::SegmentFile::Built file = file_.build();
     Built built;
-    built.bytes = files::segment_magic;
-    append(begin_, built.bytes);
-    built.bytes += messages_;
-    const v1::SegmentFrame& first = begin_.frames(0);
-    built.segment = {.sha256 = sha256_of(built.bytes),
-                     .bytes = built.bytes.size(),
-                     .frames = static_cast<std::uint64_t>(begin_.frames_size()),
+    built.bytes = std::move(file.bytes);
+    built.segment = {.sha256 = file.entry.sha256(),
+                     .bytes = file.entry.bytes(),
+                     .frames = file.entry.frames(),
                      .seconds = seconds_,
-                     .first_frame = first.index(),
-                     .last_frame = last_->index,
-                     .first_time = first.simulation_time(),
-                     .last_time = last_->simulation_time,
+                     .first_frame = file.entry.first_frame(),
+                     .last_frame = file.entry.last_frame(),
+                     .first_time = file.entry.first_time(),
+                     .last_time = file.entry.last_time(),
                      .run_id = last_->run_id};
     *this = {};
     return built;

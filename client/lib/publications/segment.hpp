@@ -1,12 +1,11 @@
 // A segment of a publication: frames to bytes and back.
 #pragma once
 
-#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
-
 #include <cstddef>
 #include <optional>
 #include <string>
 
+#include "files/segment_file.hpp"
 #include "meniscus/client/publication.hpp"
 #include "meniscus/v1/publication.pb.h"
 #include "receiving/frame_receiver.hpp"
@@ -19,8 +18,8 @@ public:
     /// Throws LimitExceeded if the segment would have more bytes than any.
     void add(const ReceivedFrame& frame, double seconds);
 
-    bool empty() const noexcept { return begin_.frames_size() == 0; }
-    std::size_t bytes() const noexcept { return messages_.size(); }
+    bool empty() const noexcept { return file_.empty(); }
+    std::size_t bytes() const noexcept { return file_.bytes(); }
     double seconds() const noexcept { return seconds_; }
     /// Whether the frame can follow: it is of the same run and has a greater index.
     bool can_follow(const ReceivedFrame& frame) const noexcept;
@@ -33,8 +32,7 @@ public:
     Built build();
 
 private:
-    v1::SegmentBegin begin_;
-    std::string messages_;
+    files::SegmentFile file_;
     double seconds_ = 0.0;
     std::optional<ReceivedFrame> last_;
 };

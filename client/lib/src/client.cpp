@@ -78,6 +78,7 @@ ServerInfo Client::server_info(const std::stop_token& stop) {
         rows::read(limits, rows::MessageField(limits, name.substr(prefix)), facts, name, info.*member, {});
     });
     info.codecs.assign(response.codecs().begin(), response.codecs().end());
+    info.publishes = response.publishes();
     return info;
 }
 

@@ -33,8 +33,10 @@ Session::Impl::Impl(std::shared_ptr<Connection> connection, const Settings& sett
     : connection_(std::move(connection)),
       id_(options.id.empty() ? new_session_id() : options.id),
       settings_(settings),
-      options_{
-          .description = options.description, .ephemeral = options.ephemeral, .stream_follows = options.stream_follows},
+      options_{.description = options.description,
+               .ephemeral = options.ephemeral,
+               .stream_follows = options.stream_follows,
+               .publish = options.publish},
       owned_(create(options.stop).created()) {}
 
 Session::Impl::~Impl() {

@@ -19,6 +19,7 @@ SessionInfo from_wire(const v1::Session& wire) {
     SessionInfo info;
     info.description = from_wire(wire.description());
     info.ephemeral = wire.ephemeral();
+    info.published = wire.published();
     info.created_at = time_from_wire(wire.created_at());
     info.id = wire.id();
     info.settings = conversion::from_wire(wire.settings());
@@ -47,6 +48,7 @@ v1::CreateSessionResponse create_session(const Connection& connection, const std
     *request.mutable_description() = to_wire(options.description);
     request.set_ephemeral(options.ephemeral);
     request.set_stream_follows(options.stream_follows);
+    request.set_publish(options.publish);
     v1::CreateSessionResponse response;
     call(connection, *connection.sessions, &v1::SessionService::Stub::CreateSession, id, request, response, limits);
     return response;

@@ -87,6 +87,7 @@ v1::CreateSessionRequest as_it_is_now(Connection& connection, grpc::ClientContex
     *create.mutable_description() = std::move(*session.mutable_description());
     create.set_ephemeral(session.ephemeral());
     create.set_stream_follows(true);
+    create.set_publish(session.published());
     return create;
 }
 

@@ -79,7 +79,8 @@ class Client:
         The keywords are the settings, as Reconstructor has them, and those of the session: ``name`` (what people call
         it), ``id`` (a UUID: joins the session if it is there with equal settings; None: a new one), ``up_axis`` ("x",
         "y" or "z"), ``length_unit`` (such as "m"), ``ephemeral`` (True: the server ends the session some seconds after
-        its stream, so that a process that is killed leaves nothing behind; False: it may rest).
+        its stream, so that a process that is killed leaves nothing behind; False: it may rest),
+        ``publish`` (True: the server publishes it as plain files, under ``/publications/ID/`` of its HTTP port).
         """
         texts = option_texts({"particle_radius": particle_radius, **options})
         if "id" in texts:

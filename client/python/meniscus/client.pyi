@@ -45,6 +45,7 @@ class Client:
         up_axis: Optional[Literal["unspecified", "x", "y", "z"]] = "unspecified",
         length_unit: Optional[str] = None,
         ephemeral: Optional[bool] = True,
+        publish: Optional[bool] = False,
         # end of rows
         # rows: preset
         preset: Optional[Literal["smooth", "paper", "splashsurf"]] = "smooth",

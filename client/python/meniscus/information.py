@@ -18,6 +18,7 @@ class ServerInfo:
     device: str
     backend_reason: str
     threads: int
+    publishes: bool  #: whether sessions may be published
     limits: Mapping[str, float]  #: by name, as in "max_particles_per_frame"; 0: none
 
     def __repr__(self) -> str:
@@ -35,6 +36,7 @@ class SessionInfo:
     up_axis: str  #: "x", "y", "z" or "unspecified"
     length_unit: str  #: such as "m"; "": not said
     ephemeral: bool
+    published: bool  #: as files of the server's HTTP port
     created_at: datetime  #: UTC
     uploading: bool
     watchers: int

@@ -55,6 +55,7 @@ py::dict to_dict(const client::ServerInfo& server) {
     out["device"] = server.device;
     out["backend_reason"] = server.backend_reason;
     out["threads"] = server.threads;
+    out["publishes"] = server.publishes;
     out["limits"] = rows_dict(server);
     return out;
 }
@@ -66,6 +67,7 @@ py::dict to_dict(const client::SessionInfo& session) {
     out["settings"] = to_dict(session.settings);
     describe(out, session.description);
     out["ephemeral"] = session.ephemeral;
+    out["published"] = session.published;
     out["created_at"] = utc(session.created_at);
     out["uploading"] = session.uploading;
     out["watchers"] = session.watchers;

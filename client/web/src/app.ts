@@ -70,7 +70,7 @@ export class App {
   private readonly recordingView: RecordingView;
   private readonly publicationView: PublicationView;
   /** That which this page shows, whatever else its address says. */
-  private readonly publication = publicationOf(document, location);
+  private readonly publication = publicationOf(document, location, () => this.server.token);
   private readonly list: SessionList;
   private readonly recordings: RecordingList;
   /** The session, or the recording and the place in it, that is shown. */

@@ -2,7 +2,7 @@ import { describe, expect, it, vi } from 'vitest';
 import { ProtocolError } from '../src/bricks/protocol_error';
 import { readManifest } from '../src/publications/manifest';
 import { Publication } from '../src/publications/publication';
-import { FileMissing, filesAt, FileUnavailable } from '../src/publications/publication_files';
+import { FileMissing, filesAt, FileUnavailable, TokenNeeded } from '../src/publications/publication_files';
 import { next } from '../src/publications/publication_view';
 import { bytesOf, golden, inMemory, segmentOf, textOf, withSegment, type Files } from './support/published';
 
@@ -157,6 +157,21 @@ describe('its files', () => {
     await expect(at({ type: 'opaqueredirect', status: 0, ok: false } as Response)).rejects.toThrow('leads elsewhere');
     const away = filesAt(new URL('https://a.example/'), () => Promise.reject(new TypeError('Failed to fetch')));
     await expect(away.read('x', 9, signal)).rejects.toThrow('a.example cannot be reached');
+  });
+
+  it('are asked for with the token of the server that the viewer comes from, and of no other', async () => {
+    const headers = (get: ReturnType<typeof answer>) => new Headers(get.mock.calls.at(-1)?.[1]?.headers);
+    const refusing = answer(new Response('', { status: 401 }));
+    let token = '';
+    const own = (get: typeof fetch) => filesAt(new URL('https://a.example/'), get, () => token);
+    await expect(own(refusing).read('x', 9, signal)).rejects.toThrow(TokenNeeded);
+    expect(headers(refusing).has('authorization')).toBe(false);
+    token = 'secret';
+    const get = answer(new Response('ab'));
+    await own(get).read('x', 9, signal);
+    expect(headers(get).get('authorization')).toBe('Bearer secret');
+    const other = filesAt(new URL('https://b.example/'), answer(new Response('', { status: 401 })));
+    await expect(other.read('x', 9, signal)).rejects.toThrow(FileUnavailable);
   });
 });
 

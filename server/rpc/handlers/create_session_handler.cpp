@@ -24,7 +24,8 @@ v1::CreateSessionResponse create_session(SessionRegistry& registry, const Caller
                          .may_see = [&](const std::string& owner) { return Authorizer::may_see(caller, owner); }},
                         {.description = std::move(description),
                          .ephemeral = request.ephemeral(),
-                         .stream_follows = request.stream_follows()});
+                         .stream_follows = request.stream_follows(),
+                         .publish = request.publish()});
     response.set_created(is_new);
     *response.mutable_session() = session_message(*session, caller);
     return response;

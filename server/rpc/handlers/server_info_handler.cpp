@@ -22,7 +22,8 @@ v1::Limits limits_message(const Limits& limits) {
 
 }  // namespace
 
-v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, unsigned threads, const Limits& limits) {
+v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, unsigned threads, const Limits& limits,
+                                          bool publishes) {
     v1::GetServerInfoResponse response;
     response.set_version(std::string(version()));
     response.set_backend(backend.name);
@@ -30,6 +31,7 @@ v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, uns
     response.set_backend_reason(backend.reason);
     response.set_threads(threads);
     conversion::add_known_codecs(*response.mutable_codecs());
+    response.set_publishes(publishes);
     *response.mutable_limits() = limits_message(limits);
     return response;
 }

@@ -7,6 +7,7 @@
 
 namespace meniscus::server {
 
-v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, unsigned threads, const Limits& limits);
+v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, unsigned threads, const Limits& limits,
+                                          bool publishes);
 
 }  // namespace meniscus::server

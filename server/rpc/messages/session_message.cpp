@@ -30,6 +30,7 @@ v1::Session session_message(const Session& session, const Caller& caller) {
     message.set_owner(session.owner());
     *message.mutable_description() = session.kind().description;
     message.set_ephemeral(session.kind().ephemeral);
+    message.set_published(session.kind().publish);
     message.set_created_at(
         std::chrono::duration_cast<std::chrono::microseconds>(session.created_at().time_since_epoch()).count());
     *message.mutable_settings() = conversion::to_wire(session.settings());

@@ -43,11 +43,12 @@ UnaryCall::Handle about_session(SessionRegistry& registry,
 }  // namespace
 
 ServerServiceImpl::ServerServiceImpl(const Authorizer& authorizer, Refusals& refusals,
-                                     const BackendDescription& backend, unsigned threads, const Limits& limits)
+                                     const BackendDescription& backend, unsigned threads, const Limits& limits,
+                                     bool publishes)
     : ByteService(v1::ServerService::service_full_name()) {
     add("GetServerInfo", unary(authorizer, refusals, Action::describe_server, [=](UnaryCall& call) {
             call.request<v1::GetServerInfoRequest>();
-            call.answer(get_server_info(backend, threads, limits));
+            call.answer(get_server_info(backend, threads, limits, publishes));
         }));
 }
 

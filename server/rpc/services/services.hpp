@@ -14,7 +14,7 @@ namespace meniscus::server {
 class ServerServiceImpl final : public ByteService {
 public:
     ServerServiceImpl(const Authorizer& authorizer, Refusals& refusals, const BackendDescription& backend,
-                      unsigned threads, const Limits& limits);
+                      unsigned threads, const Limits& limits, bool publishes);
 };
 
 class SessionServiceImpl final : public ByteService {

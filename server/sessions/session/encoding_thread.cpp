@@ -122,7 +122,7 @@ void EncodingThread::perform(Encode& task) {
         ends_.upload(task.upload, std::current_exception());
     }
     answered(upload);
-    if (context_.observer) encode_for_observer();
+    for (const auto& observer : context_.observers) encode_for(*observer);
     // One whatever waits, so that each format has its turn.
     encode_in_one_format();
     encode_for_watchers();
@@ -253,10 +253,9 @@ bool EncodingThread::encode_in_one_format() {
     }
 }
 
-void EncodingThread::encode_for_observer() {
-    const std::vector<AttributeWish> all{{.name = {}, .bits = context_.observer->attribute_bits()}};
-    const MeshFormat format =
-        stream_format(SessionObserver::normal_bits, context_.observer->codec(), all, context_.settings);
+void EncodingThread::encode_for(SessionObserver& observer) {
+    const std::vector<AttributeWish> all{{.name = {}, .bits = observer.attribute_bits()}};
+    const MeshFormat format = stream_format(SessionObserver::normal_bits, observer.codec(), all, context_.settings);
     std::shared_ptr<const EncodedFrame> frame = watchers_.published(format);
     try {
         if (!frame)
@@ -264,11 +263,11 @@ void EncodingThread::encode_for_observer() {
     } catch (const DeviceError&) {
         throw;
     } catch (const std::exception& error) {
-        log_error({.session = context_.identity.id, .frame = newest_->index}, "not encoded for its recording: {}",
-                  error.what());
+        log_error({.session = context_.identity.id, .frame = newest_->index}, "not encoded for its {}: {}",
+                  observer.what(), error.what());
         return;
     }
-    context_.observer->encoded(std::move(frame));
+    observer.encoded(std::move(frame));
 }
 
 }  // namespace meniscus::server

@@ -131,7 +131,7 @@ private:
     void encode_for_watchers();
     /// For the watchers whose turn it is. Returns false if there is none, or it failed.
     bool encode_in_one_format();
-    void encode_for_observer();
+    void encode_for(SessionObserver& observer);
 
     const SessionContext& context_;
     Watchers& watchers_;

@@ -53,7 +53,7 @@ ReconstructingThread::ReconstructingThread(const SessionContext& context, Recons
       watchers_(watchers),
       encoding_(encoding),
       stop_(stop),
-      particles_(context.identity.id, context.settings.particle_radius, inputs, watchers, context.observer),
+      particles_(context.identity.id, context.settings.particle_radius, inputs, watchers, context.observers),
       thread_(start_thread(fmt::format("that reconstructs session {}", context.identity.id), [this] { run(); })) {}
 
 ReconstructingThread::Progress ReconstructingThread::progress() const {

@@ -20,12 +20,12 @@
 namespace meniscus::server {
 
 Session::Session(SessionIdentity identity, const Settings& settings, const Limits& limits,
-                 ReconstructFunctions functions, SharedResources shared, std::shared_ptr<SessionObserver> observer)
+                 ReconstructFunctions functions, SharedResources shared, SessionObservers observers)
     : context_{.identity = std::move(identity),
                .settings = settings,
                .limits = limits,
                .shared = std::move(shared),
-               .observer = std::move(observer),
+               .observers = std::move(observers),
                .closing = closing_.get_token()},
       in_flight_(
           std::make_shared<SessionInFlight>(SessionInFlight{.name = account() ? account()->in_flight() : nullptr})),
@@ -436,6 +436,7 @@ bool Session::ended() const {
 void Session::join() {
     reconstructing_.join();
     encoding_.join();
+    for (const auto& observer : context_.observers) observer->ended();
     // Not with the last reference: a call that its client keeps open may have that for long.
     encoding_.release_memory();
     reconstructing_.release_memory();

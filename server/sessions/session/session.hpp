@@ -55,9 +55,8 @@ struct SessionState {
 /// join() must have returned before the last reference goes, unless no other thread has one.
 class Session {
 public:
-    /// observer: may be none.
     Session(SessionIdentity identity, const Settings& settings, const Limits& limits, ReconstructFunctions functions,
-            SharedResources shared, std::shared_ptr<SessionObserver> observer = nullptr);
+            SharedResources shared, SessionObservers observers = {});
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;

@@ -19,6 +19,7 @@ struct SessionKind {
     v1::SessionDescription description{};
     bool ephemeral = false;       ///< see Session::unused()
     bool stream_follows = false;  ///< its creator is about to open one: where none comes, it has vanished
+    bool publish = false;         ///< its meshes, as files of the HTTP port
 };
 
 struct SessionIdentity {
@@ -33,8 +34,8 @@ struct SessionContext {
     const Settings settings;
     const Limits limits;
     const SharedResources shared;
-    const std::shared_ptr<SessionObserver> observer;  ///< may be none
-    const std::stop_token closing{};                  ///< requested once the session ends
+    const SessionObservers observers{};
+    const std::stop_token closing{};  ///< requested once the session ends
 };
 
 }  // namespace meniscus::server

@@ -1,7 +1,8 @@
-// The reports of a session about its frames, to its recording.
+// The reports of a session about its frames, to its recording and its publication.
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "meniscus/attribute_coding.hpp"
 #include "meniscus/codec.hpp"
@@ -17,6 +18,8 @@ public:
     static constexpr int normal_bits = 8;
 
     virtual ~SessionObserver() = default;
+    /// What it makes, for the log.
+    virtual const char* what() const noexcept { return "recording"; }
     /// The codec of those meshes, where the session can encode it; otherwise it is Draco.
     virtual Codec codec() const noexcept { return Codec::draco; }
     /// The bits of all attributes in those meshes; see AttributeWish.
@@ -25,6 +28,10 @@ public:
     virtual void reconstructed(const InputFrame& frame) noexcept = 0;
     /// Its mesh, in the same order. Meanwhile the next frame may have been reconstructed, by another thread.
     virtual void encoded(std::shared_ptr<const EncodedFrame> frame) noexcept = 0;
+    /// No other frame comes: the session has ended. May be called again.
+    virtual void ended() noexcept {}
 };
+
+using SessionObservers = std::vector<std::shared_ptr<SessionObserver>>;
 
 }  // namespace meniscus::server

@@ -96,6 +96,11 @@ SessionRegistry::Created SessionRegistry::create(const std::string& id, const Se
         if (creator.may_see && !creator.may_see(found->second->owner()))
             throw Refusal(Refusal::Kind::permission_denied,
                           fmt::format("session {} is not one of {}'s: choose another id", id, creator.name));
+        if (kind.publish && !found->second->kind().publish)
+            throw Refusal(Refusal::Kind::failed_precondition,
+                          fmt::format("session {} exists and is not published: join it without publish, or create "
+                                      "another one",
+                                      id));
         if (found->second->settings() == settings) {
             found->second->touch();
             found->second->await_stream();
@@ -118,8 +123,9 @@ SessionRegistry::Created SessionRegistry::create(const std::string& id, const Se
         };
     }
     const SessionIdentity identity{.id = id, .owner = creator.name, .account = creator.account, .kind = kind};
-    auto session = std::make_shared<Session>(identity, settings, limits_, make_reconstruct_(settings, backend),
-                                             shared_on(backend), observe_ ? observe_(identity, settings) : nullptr);
+    auto session =
+        std::make_shared<Session>(identity, settings, limits_, make_reconstruct_(settings, backend), shared_on(backend),
+                                  observe_ ? observe_(identity, settings) : SessionObservers{});
     sessions_.emplace(id, session);
     idle_buffers_->add(session);
     call_log.write({.session = id}, "{}created on {}{} ({} open)", named(session->name()), place_name(backend),

@@ -25,9 +25,8 @@
 
 namespace meniscus::server {
 
-/// Makes the observer of a new session.
-using Observe =
-    std::function<std::shared_ptr<SessionObserver>(const SessionIdentity& identity, const Settings& settings)>;
+/// Makes the observers of a new session. Throws Refusal for one that cannot be observed as its kind asks.
+using Observe = std::function<SessionObservers(const SessionIdentity& identity, const Settings& settings)>;
 
 /// Makes the functions that a new session reconstructs with.
 using MakeReconstruct = std::function<ReconstructFunctions(const Settings& settings, const BackendOptions& backend)>;

@@ -9,17 +9,17 @@
 namespace meniscus::server {
 
 ShownParticles::ShownParticles(std::string session, double particle_radius, InputSlots& inputs, Watchers& watchers,
-                               std::shared_ptr<SessionObserver> observer)
+                               SessionObservers observers)
     : session_(std::move(session)),
       particle_radius_(particle_radius),
       inputs_(inputs),
       watchers_(watchers),
-      observer_(std::move(observer)) {}
+      observers_(std::move(observers)) {}
 
 bool ShownParticles::show(InputFrame& input, Run& run) {
     if (run.last_shown && input.index <= *run.last_shown) return false;
     run.last_shown = input.index;
-    if (observer_) observer_->reconstructed(input);
+    for (const auto& observer : observers_) observer->reconstructed(input);
     input.shown_in_run = run.id;
     if (newest_ == &kept_) kept_.free_memory();
     newest_ = &input;

@@ -1,4 +1,4 @@
-// The particles of a session's frames, on their way to the observer and to watchers of particles.
+// The particles of a session's frames, on their way to the observers and to watchers of particles.
 #pragma once
 
 #include <memory>
@@ -14,11 +14,11 @@ namespace meniscus::server {
 /// The particles that the reconstructing thread shows. They are encoded once for each stride that watchers ask for.
 class ShownParticles {
 public:
-    /// session: its id, for the log. particle_radius: of level 0, world units. observer: may be none.
+    /// session: its id, for the log. particle_radius: of level 0, world units.
     ShownParticles(std::string session, double particle_radius, InputSlots& inputs, Watchers& watchers,
-                   std::shared_ptr<SessionObserver> observer);
+                   SessionObservers observers);
 
-    /// Shows the observer a frame that was reconstructed. Does nothing, and returns false, if the run has shown the
+    /// Shows the observers a frame that was reconstructed. Does nothing, and returns false, if the run has shown the
     /// frame already, before it was resumed.
     bool show(InputFrame& input, Run& run);
     /// Encodes the frame that was shown last, for watchers.
@@ -42,7 +42,7 @@ private:
     const double particle_radius_;
     InputSlots& inputs_;
     Watchers& watchers_;
-    const std::shared_ptr<SessionObserver> observer_;
+    const SessionObservers observers_;
     InputFrame* newest_ = nullptr;  ///< the frame that was shown last
     InputFrame kept_{nullptr};
 };

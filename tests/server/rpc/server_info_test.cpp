@@ -16,7 +16,7 @@ TEST(ServerInfo, HasAValueForEachFieldOfTheLimits) {
     Limits::rows(limits, []<class Value>(std::string_view, Value& value, const Facts&, const auto&...) {
         if constexpr (!std::is_const_v<Value>) value = Value(1);
     });
-    const v1::Limits message = get_server_info({}, 1, limits).limits();
+    const v1::Limits message = get_server_info({}, 1, limits, false).limits();
     std::vector<const google::protobuf::FieldDescriptor*> set;
     message.GetReflection()->ListFields(message, &set);
     EXPECT_EQ(set.size(), static_cast<std::size_t>(v1::Limits::descriptor()->field_count()));

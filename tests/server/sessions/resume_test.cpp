@@ -123,7 +123,7 @@ TEST(ResumeObserved, ShowsARecordingEachFrameOnce) {
     };
     const auto recorder = std::make_shared<Recorder>();
     Session session({.id = id}, settings(), {}, {.reconstruct = reconstruct_on_the_cpu()},
-                    {.workers = std::make_shared<WorkerPool>(1)}, recorder);
+                    {.workers = std::make_shared<WorkerPool>(1)}, {recorder});
     for (const std::uint64_t first : {0U, 1U}) {
         Simulator simulator(session, run_seven);
         for (std::uint64_t i = first; i < first + 3; ++i) simulator.send(i, wave(4, 0.0));

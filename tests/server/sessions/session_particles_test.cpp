@@ -130,14 +130,14 @@ struct WaitingObserver : SessionObserver {
 TEST(SessionParticlesOfTwo, AreShownWhileAnotherSessionHasItsTurnOnTheDevice) {
     const auto observer = std::make_shared<WaitingObserver>();
     const auto turns = std::make_shared<Turns>();
-    const auto make = [&](std::shared_ptr<SessionObserver> observed) {
+    const auto make = [&](SessionObservers observed) {
         return std::make_unique<Session>(
             SessionIdentity{.id = id}, test::settings(), Limits{},
             ReconstructFunctions{.reconstruct = test::reconstruct_on_the_cpu(), .emit_capped = {}},
             SharedResources{.workers = std::make_shared<WorkerPool>(1), .turns = turns}, std::move(observed));
     };
-    const auto shown = make(observer);
-    const auto other = make(nullptr);
+    const auto shown = make({observer});
+    const auto other = make({});
     Simulator simulator(*shown, {});
     simulator.send(0, test::wave(4, 0.0));
     observer->showing.acquire();

@@ -14,24 +14,16 @@
 
 #include "attribute_frames.hpp"
 #include "meniscus/error.hpp"
-#include "running_server.hpp"
 #include "test_certificates.hpp"
 #include "test_folder.hpp"
+#include "web/file_request.hpp"
 #include "web/http_server.hpp"
 #include "web/mesh_glb.hpp"
-#include "web/web_call.hpp"
 
 namespace meniscus::server::test {
 namespace {
 
 using nlohmann::json;
-using Headers = std::vector<std::pair<std::string, std::string>>;
-
-ServerOptions web_options() {
-    ServerOptions options = test_options();
-    options.http = "127.0.0.1:0";
-    return options;
-}
 
 void play(client::Client& client, const std::string& id, const ParticleFrame& frame, std::uint64_t index) {
     auto stream = client.stream(id, {.receive_meshes = false});
@@ -43,25 +35,6 @@ void play(client::Client& client, const std::string& id, const ParticleFrame& fr
 
 std::string target_of(const std::string& id, const std::string& query = "") {
     return "/sessions/" + id + "/latest.glb" + query;
-}
-
-HttpAnswer ask(const std::string& address, const std::string& target, const Headers& headers = {},
-               const std::string& method = "GET") {
-    std::string request = method + " " + target + " HTTP/1.1\r\n";
-    if (std::ranges::none_of(headers, [](const auto& header) { return header.first == "Host"; }))
-        request += "Host: localhost\r\n";
-    for (const auto& [name, value] : headers) request.append(name).append(": ").append(value).append("\r\n");
-    HttpClient client(address);
-    client.send(request + "\r\n");
-    return client.receive(method == "HEAD");
-}
-
-/// The header's value; empty without it.
-std::string value_of(const HttpAnswer& answer, const std::string& name) {
-    const std::size_t at = answer.header.find("\r\n" + name + ": ");
-    if (at == std::string::npos) return {};
-    const std::size_t first = at + name.size() + 4;
-    return answer.header.substr(first, answer.header.find("\r\n", first) - first);
 }
 
 struct Glb {

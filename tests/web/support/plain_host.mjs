@@ -1,8 +1,10 @@
-// A host of plain files, as any is.
-import { createReadStream, statSync } from 'node:fs';
+// A host of plain files, as any is, or by the rules of one that authors are told of.
+import { createHash } from 'node:crypto';
+import { readFileSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { once } from 'node:events';
 import { extname, join, normalize } from 'node:path';
+import { gzipSync } from 'node:zlib';
 
 const types = {
   '.html': 'text/html',
@@ -13,24 +15,55 @@ const types = {
   '.wasm': 'application/wasm',
 };
 
-/** asked: the paths that were asked for. */
-export async function startHost(folder) {
+/** The rules of hosts, as they document them. under: where a site lies. */
+export const hosts = {
+  plain: { under: '' },
+  'GitHub Pages': { under: 'repository/', headers: { 'Cache-Control': 'max-age=600' }, compresses: true, tags: true },
+  Netlify: {
+    under: '',
+    headers: { 'Cache-Control': 'public,max-age=0,must-revalidate' },
+    compresses: true,
+    tags: true,
+  },
+  // Apache sends no type for an ending that it does not know.
+  'a university': {
+    under: '~author/',
+    headers: { 'Last-Modified': 'Thu, 26 Nov 2026 12:00:00 GMT' },
+    unknownType: undefined,
+  },
+};
+
+/** asked: the paths that were asked for. rules: of `hosts`. */
+export async function startHost(folder, rules = hosts.plain) {
+  const { under, headers = {}, compresses = false, tags = false } = rules;
+  const unknownType = 'unknownType' in rules ? rules.unknownType : 'application/octet-stream';
   const asked = [];
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url, 'http://h').pathname);
     asked.push(path);
-    const file = join(folder, normalize(path), path.endsWith('/') ? 'index.html' : '');
-    if (!statSync(file, { throwIfNoEntry: false })?.isFile()) {
+    const file = join(folder, normalize(path.slice(under.length)), path.endsWith('/') ? 'index.html' : '');
+    if (!path.startsWith(`/${under}`) || !statSync(file, { throwIfNoEntry: false })?.isFile()) {
       response.writeHead(404).end();
       return;
     }
-    response.writeHead(200, { 'Content-Type': types[extname(file)] ?? 'application/octet-stream' });
-    createReadStream(file).pipe(response);
+    const type = types[extname(file)] ?? unknownType;
+    let bytes = readFileSync(file);
+    const sent = { ...headers, ...(type ? { 'Content-Type': type } : {}) };
+    if (tags) sent.ETag = `"${createHash('sha1').update(bytes).digest('hex')}"`;
+    if (tags && request.headers['if-none-match'] === sent.ETag) {
+      response.writeHead(304, sent).end();
+      return;
+    }
+    if (compresses && /text|json/.test(type) && /gzip/.test(request.headers['accept-encoding'])) {
+      bytes = gzipSync(bytes);
+      sent['Content-Encoding'] = 'gzip';
+    }
+    response.writeHead(200, { ...sent, 'Content-Length': bytes.length }).end(bytes);
   });
   server.listen(0, '127.0.0.1');
   await once(server, 'listening');
   return {
-    url: `http://127.0.0.1:${server.address().port}/`,
+    url: `http://127.0.0.1:${server.address().port}/${under}`,
     asked,
     stop: () => {
       server.closeAllConnections();

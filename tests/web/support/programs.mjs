@@ -72,9 +72,10 @@ export async function run(args) {
 }
 
 /** Streams a dam break as fast as it can. Its session goes when it ends, and stays when it is killed. */
-export function startSimulator(server, { session, particles = 2000, frames = 100_000, stats } = {}) {
+export function startSimulator(server, { session, particles = 2000, frames = 100_000, stats, publish } = {}) {
   const args = ['simulate', '--scene', 'dam-break', '--particles', `${particles}`, '--frames', `${frames}`];
   if (stats) args.push('--stats', stats);
+  if (publish) args.push('--publish');
   return startUploader(server, args, session);
 }
 

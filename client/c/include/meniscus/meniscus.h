@@ -218,13 +218,13 @@ MENISCUS_API meniscus_result meniscus_client_delete_session(meniscus_client* cli
 
 /* options: the settings, as for meniscus_reconstructor_create(); of the session: session (id: joins it if it is there
  * with equal settings; default: a new one), name, up-axis (x, y or z), length-unit (such as m), ephemeral (true, the
- * default: the server ends it soon after this process has vanished; false); of the stream: meshes (true or false:
- * whether they come back at all), normal-bits (2 to 16, 0 for none), normals-by (server, the default, or receiver: the
- * library computes them from the triangles, none are sent, and normal-bits does not count), attribute-bits (1 to 16,
- * default 8: each float32 of the attributes comes back rounded to one of 2^bits values; 0: exactly), codec (of the
- * meshes: packed, the default from a server on this machine, entropy, the default from others, or draco), waiting-limit
- * (received frames that wait at most; 0, the default: no limit), policy (every-frame, latest or every-nth), nth,
- * reconnect (seconds, 0: not at all). */
+ * default: the server ends it soon after this process has vanished; false), publish (true: the server publishes it as
+ * plain files; false, the default); of the stream: meshes (true or false: whether they come back at all), normal-bits
+ * (2 to 16, 0 for none), normals-by (server, the default, or receiver: the library computes them from the triangles,
+ * none are sent, and normal-bits does not count), attribute-bits (1 to 16, default 8: each float32 of the attributes
+ * comes back rounded to one of 2^bits values; 0: exactly), codec (of the meshes: packed, the default from a server on
+ * this machine, entropy, the default from others, or draco), waiting-limit (received frames that wait at most; 0, the
+ * default: no limit), policy (every-frame, latest or every-nth), nth, reconnect (seconds, 0: not at all). */
 MENISCUS_API meniscus_result meniscus_session_open(meniscus_client* client, const meniscus_options* options,
                                                    meniscus_session** session);
 /* Cancels what is in flight, and ends the session if this handle has made it, unless meniscus_session_leave() was

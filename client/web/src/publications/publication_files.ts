@@ -7,14 +7,20 @@ import { manifestName } from './manifest';
 export class FileUnavailable extends Error {}
 /** There is no such file. */
 export class FileMissing extends Error {}
+/** The server asks for a token, or for another one. */
+export class TokenNeeded extends Error {}
 
 export interface PublicationFiles {
-  /** Throws FileUnavailable, FileMissing, or ProtocolError for a file of more than `most` bytes. */
+  /** Throws FileUnavailable, FileMissing, TokenNeeded, or ProtocolError for a file of more than `most` bytes. */
   read(name: string, most: number, signal: AbortSignal): Promise<Uint8Array>;
 }
 
-/** url: of a folder, or of its manifest. */
-export function filesAt(url: URL, get: typeof fetch = (...what) => fetch(...what)): PublicationFiles {
+/** url: of a folder, or of its manifest. token: of the viewer's own server, "" for none yet; no other host is shown one. */
+export function filesAt(
+  url: URL,
+  get: typeof fetch = (...what) => fetch(...what),
+  token?: () => string,
+): PublicationFiles {
   const manifest = url.pathname.endsWith('.json') ? url : new URL(manifestName, withSlash(url));
   return {
     async read(name, most, signal) {
@@ -23,13 +29,14 @@ export function filesAt(url: URL, get: typeof fetch = (...what) => fetch(...what
       const cache = name === manifestName ? 'no-cache' : 'default';
       let response: Response;
       try {
-        response = await get(at.href, { signal, cache, redirect: 'manual' });
+        response = await get(at.href, { signal, cache, redirect: 'manual', headers: headersWith(token?.()) });
       } catch (error) {
         if (signal.aborted) throw error;
         throw new FileUnavailable(`${at.host} cannot be reached, or does not let this page read.`);
       }
       if (response.type === 'opaqueredirect')
         throw new ProtocolError(`${name} leads elsewhere, where this viewer does not follow`);
+      if (response.status === 401 && token) throw new TokenNeeded(`${at.host} asks for a token.`);
       if (response.status === 404 || response.status === 410)
         throw new FileMissing(`There is no ${name} at ${at.host}.`);
       if (!response.ok) throw new FileUnavailable(`${at.host} answers for ${name} with the status ${response.status}.`);
@@ -59,6 +66,10 @@ export function filesInPage(page: Document): PublicationFiles | undefined {
       }
     },
   };
+}
+
+function headersWith(token = ''): HeadersInit {
+  return token === '' ? {} : { authorization: `Bearer ${token}` };
 }
 
 function withSlash(url: URL): URL {

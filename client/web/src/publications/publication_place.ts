@@ -1,10 +1,11 @@
 // Which publication this page shows: its own, where it is one; else that of its address, `?publication=URL`.
 import { FileMissing, filesAt, filesInPage, type PublicationFiles } from './publication_files';
 
-/** None where the page shows a server's sessions. */
+/** None where the page shows a server's sessions. token: of the server that the page comes from; "": none. */
 export function publicationOf(
   page: Document,
-  { search, href }: Pick<Location, 'search' | 'href'>,
+  { search, href, origin }: Pick<Location, 'search' | 'href' | 'origin'>,
+  token: () => string,
 ): PublicationFiles | undefined {
   const inPage = filesInPage(page);
   if (inPage) return inPage;
@@ -12,7 +13,7 @@ export function publicationOf(
   const named = beside ?? new URLSearchParams(search).get('publication');
   if (named === null) return undefined;
   const url = parsed(named, href);
-  if (url) return filesAt(url);
+  if (url) return filesAt(url, undefined, url.origin === origin ? token : undefined);
   return {
     read: () => Promise.reject(new FileMissing('This address names a publication that cannot be: it is no URL.')),
   };

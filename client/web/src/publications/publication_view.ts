@@ -8,7 +8,7 @@ import type { WatchState } from '../stream/watch_state';
 import type { Playback } from '../ui/playback';
 import { segmentAt, type Manifest } from './manifest';
 import { Publication } from './publication';
-import { FileMissing, FileUnavailable, type PublicationFiles } from './publication_files';
+import { FileMissing, FileUnavailable, TokenNeeded, type PublicationFiles } from './publication_files';
 
 /** ms between two looks at the manifest of a publication that grows. */
 const lookEvery = 500;
@@ -121,7 +121,7 @@ export class PublicationView {
     } catch (error) {
       if (ended.signal.aborted) return;
       // The frames that are there play on; what is wrong for good shows at the next.
-      if (error instanceof ProtocolError) {
+      if (error instanceof ProtocolError || error instanceof TokenNeeded) {
         this.fail(error);
         return;
       }
@@ -136,6 +136,9 @@ export class PublicationView {
       const wait = this.backoff.next();
       this.retry = setTimeout(() => void this.again(), wait);
       this.events.state({ kind: 'waiting', reason, retryAt: performance.now() + wait });
+    } else if (error instanceof TokenNeeded) {
+      clearTimeout(this.timer);
+      this.events.state({ kind: 'token', reason });
     } else {
       clearTimeout(this.timer);
       const sentence = error instanceof ProtocolError ? `The publication cannot be read: ${reason}.` : reason;

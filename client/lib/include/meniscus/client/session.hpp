@@ -22,6 +22,8 @@ struct OpenOptions {
     bool ephemeral = true;
     /// Whether a stream is about to be opened to it, see SessionOptions; matters where it is not ephemeral.
     bool stream_follows = false;
+    /// Whether the server publishes the session as plain files, see SessionOptions.
+    bool publish = false;
     std::stop_token stop{};  ///< when a stop is requested while the session is opened: ServerError (canceled)
 
     template <class Visit>
@@ -30,6 +32,7 @@ struct OpenOptions {
         visit("id", &O::id, {.help = "UUID of the session to create, or to join if it is there", .option = "session"});
         visit("description", &O::description, {.help = "what people call the session, and how viewers show it"});
         visit("ephemeral", &O::ephemeral, {.help = "whether the server ends the session soon after its stream"});
+        visit("publish", &O::publish, {.help = "whether the server publishes the session as plain files"});
     }
 };
 

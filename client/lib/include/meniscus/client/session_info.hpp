@@ -60,6 +60,10 @@ struct SessionOptions {
     /// Whether a stream is about to be opened to it. Until one is, the server takes a session for one whose simulator
     /// has vanished (ServerInfo::max_orphan_seconds), unless it is watched.
     bool stream_follows = false;
+    /// Whether the server publishes the session's meshes as plain files, /publications/ID/manifest.json on its HTTP
+    /// port, for callers that may watch it. Throws ServerError (failed_precondition) where the server publishes nothing
+    /// (ServerInfo::publishes), and where the session is there and is not published.
+    bool publish = false;
 };
 
 struct SessionInfo {
@@ -68,6 +72,7 @@ struct SessionInfo {
     Settings settings;  ///< as in_force() has them
     SessionDescription description;
     bool ephemeral = false;
+    bool published = false;  ///< as SessionOptions::publish asks
     std::chrono::system_clock::time_point created_at;
     bool uploading = false;
     unsigned watchers = 0;

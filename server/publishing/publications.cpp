@@ -1,0 +1,144 @@
+#include "publishing/publications.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <exception>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "meniscus/seconds.hpp"
+#include "process/call_log.hpp"
+#include "process/log.hpp"
+
+namespace meniscus::server {
+
+namespace {
+
+/// Often enough that a segment ends soon after its time.
+constexpr std::chrono::milliseconds tidying_interval{250};
+
+/// Hands a session's meshes to its publication, on the thread that has encoded them. Each costs a copy of what has
+/// changed and a hash of it, far less than its encoding.
+class SessionPublication final : public SessionObserver {
+public:
+    SessionPublication(Publications& all, std::shared_ptr<Publication> publication, SessionIdentity identity)
+        : all_(all),
+          publication_(std::move(publication)),
+          id_(std::move(identity.id)),
+          turn_(publication_->begin(identity.kind.description)) {}
+
+    Codec codec() const noexcept override { return Codec::lattice_entropy; }
+    const char* what() const noexcept override { return "publication"; }
+    void reconstructed(const InputFrame& /*frame*/) noexcept override {}
+    void encoded(std::shared_ptr<const EncodedFrame> frame) noexcept override {
+        try {
+            publication_->add(turn_, *frame, Publication::Clock::now());
+            all_.make_room();
+        } catch (const std::exception& error) {
+            if (!std::exchange(said_so_, true))
+                log_warning({.session = id_, .frame = frame->index},
+                            "the frame is not published, and others may not be: {}", error.what());
+        }
+    }
+    void ended() noexcept override {
+        try {
+            publication_->end(turn_, Publication::Clock::now());
+        } catch (const std::exception& error) {
+            log_warning({.session = id_}, "its last frames are not published: {}", error.what());
+        }
+    }
+
+private:
+    Publications& all_;
+    const std::shared_ptr<Publication> publication_;
+    const std::string id_;
+    const std::uint64_t turn_;
+    bool said_so_ = false;  ///< in the log
+};
+
+}  // namespace
+
+Publications::Publications(const PublishingOptions& options, std::size_t most_ended)
+    : options_(options), most_ended_(most_ended) {
+    timer_.every(tidying_interval, [this] {
+        try {
+            tidy(Publication::Clock::now());
+        } catch (const std::exception& error) {
+            spdlog::error("publications: {}", error.what());
+        }
+    });
+}
+
+std::shared_ptr<SessionObserver> Publications::observe(const SessionIdentity& identity, const Settings& settings) {
+    call_log.write({.session = identity.id}, "published under /publications/{}/", identity.id);
+    const std::lock_guard lock(mutex_);
+    auto& publication = entries_[identity.id];
+    if (!publication || publication->owner() != identity.owner || publication->settings() != settings)
+        publication = std::make_shared<Publication>(
+            identity.owner, settings,
+            options_.keep.count() != 0 ? std::optional(seconds_of(options_.keep)) : std::nullopt, counters_);
+    return std::make_shared<SessionPublication>(*this, publication, identity);
+}
+
+std::shared_ptr<const Publication> Publications::find(std::string_view session_id) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = entries_.find(session_id);
+    return found != entries_.end() ? found->second : nullptr;
+}
+
+std::size_t Publications::count() const {
+    const std::lock_guard lock(mutex_);
+    return entries_.size();
+}
+
+void Publications::make_room() {
+    if (options_.limit == 0 || counters_->held <= options_.limit) return;
+    const std::lock_guard lock(mutex_);
+    std::vector<std::pair<std::size_t, Publication*>> sizes;
+    std::size_t all = 0;
+    for (const auto& [id, publication] : entries_) {
+        sizes.emplace_back(publication->bytes(), publication.get());
+        all += sizes.back().first;
+    }
+    while (all > options_.limit) {
+        auto& [bytes, largest] = *std::ranges::max_element(sizes);
+        largest->drop_oldest();
+        all -= bytes;
+        bytes = largest->bytes();
+        all += bytes;
+    }
+}
+
+void Publications::tidy(Publication::Clock::time_point now) {
+    std::vector<std::shared_ptr<Publication>> all;
+    {
+        const std::lock_guard lock(mutex_);
+        for (const auto& [id, publication] : entries_) all.push_back(publication);
+    }
+    // Without the lock: one may be writing a large frame.
+    for (const auto& publication : all) publication->tidy(now);
+    {
+        const std::lock_guard lock(mutex_);
+        forget_ended(now);
+    }
+    make_room();
+}
+
+void Publications::forget_ended(Publication::Clock::time_point now) {
+    std::vector<std::pair<Publication::Clock::duration, Entries::iterator>> ended;
+    for (auto entry = entries_.begin(); entry != entries_.end();) {
+        const auto time = entry->second->ended_for(now);
+        const bool is_over =
+            time && (options_.keep.count() != 0 ? *time >= options_.keep : entry->second->bytes() == 0);
+        if (time && !is_over) ended.emplace_back(*time, entry);
+        entry = is_over ? entries_.erase(entry) : std::next(entry);
+    }
+    if (ended.size() <= most_ended_) return;
+    std::ranges::sort(ended, std::ranges::greater(), [](const auto& each) { return each.first; });
+    ended.resize(ended.size() - most_ended_);
+    for (const auto& [time, entry] : ended) entries_.erase(entry);
+}
+
+}  // namespace meniscus::server

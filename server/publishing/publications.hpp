@@ -1,0 +1,55 @@
+// The publications of a server, by the ids of their sessions.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "publishing/publication.hpp"
+#include "publishing/publishing_options.hpp"
+#include "sessions/handover/timer.hpp"
+#include "sessions/session/session_context.hpp"
+
+namespace meniscus::server {
+
+/// Thread-safe. Outlives the sessions that publish.
+class Publications {
+public:
+    /// most_ended: publications of sessions that have ended, of which the longest ended go first.
+    Publications(const PublishingOptions& options, std::size_t most_ended);
+
+    /// The observer that publishes a new session. A publication of an earlier session of this id goes on if it had the
+    /// same owner and the same settings; otherwise it is replaced.
+    std::shared_ptr<SessionObserver> observe(const SessionIdentity& identity, const Settings& settings);
+    /// Null: there is none.
+    std::shared_ptr<const Publication> find(std::string_view session_id) const;
+
+    std::size_t count() const;
+    const PublishingCounters& counters() const noexcept { return *counters_; }
+    const PublishingOptions& options() const noexcept { return options_; }
+
+    /// The largest publications lose their oldest frames until all fit.
+    void make_room();
+    /// Ends segments whose time is over, and forgets what nobody needs to find any more.
+    void tidy(Publication::Clock::time_point now);
+
+private:
+    using Entries = std::map<std::string, std::shared_ptr<Publication>, std::less<>>;
+
+    // With the lock held.
+    void forget_ended(Publication::Clock::time_point now);
+
+    const PublishingOptions options_;
+    const std::size_t most_ended_;
+    const std::shared_ptr<PublishingCounters> counters_ = std::make_shared<PublishingCounters>();
+    mutable std::mutex mutex_;  ///< for what follows
+    Entries entries_;
+    Timer timer_;  ///< last: it uses the others
+};
+
+}  // namespace meniscus::server

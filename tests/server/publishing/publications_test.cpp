@@ -1,0 +1,92 @@
+// The publications of all sessions: their memory, and what becomes of them after their sessions.
+#include "publishing/publications.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "published_frames.hpp"
+#include "test_frames.hpp"
+
+namespace meniscus::server::test {
+namespace {
+
+using Clock = Publication::Clock;
+
+constexpr std::size_t most_ended = 3;
+
+std::string id_of(int number) {
+    return "00000000-0000-0000-0000-00000000000" + std::to_string(number);
+}
+
+SessionIdentity identity(int number, const std::string& owner = {}) {
+    return {.id = id_of(number), .owner = owner, .kind = {.publish = true}};
+}
+
+/// A frame that is a segment by itself.
+std::shared_ptr<const EncodedFrame> large_frame(std::uint64_t index) {
+    return std::make_shared<const EncodedFrame>(encoded_frame(index, {std::string(Publication::segment_bytes, 'x')}));
+}
+
+constexpr std::size_t limit = 10 * (Publication::segment_bytes + 1000);
+
+struct Published {
+    Publications all{{.enabled = true, .keep = std::chrono::minutes(1), .limit = limit}, most_ended};
+};
+
+TEST(Publications, StayWithinTheirMemoryByWhatTheLargestLose) {
+    Published published;
+    std::vector<std::shared_ptr<SessionObserver>> sessions;
+    for (int i = 0; i < 3; ++i) sessions.push_back(published.all.observe(identity(i), settings()));
+    for (std::uint64_t frame = 0; frame < 3; ++frame) sessions[0]->encoded(large_frame(frame));
+    for (std::uint64_t frame = 0; frame < 40; ++frame) sessions[1]->encoded(large_frame(frame));
+    std::size_t bytes = 0;
+    for (int i = 0; i < 3; ++i) bytes += published.all.find(id_of(i))->bytes();
+    EXPECT_LE(bytes, limit);
+    EXPECT_GT(bytes, limit - 2 * Publication::segment_bytes);
+    EXPECT_EQ(manifest_of(*published.all.find(id_of(0))).frames(), 3U) << "the small one has all";
+    const v1::Publication large = manifest_of(*published.all.find(id_of(1)));
+    EXPECT_EQ(large.frames() + large.left_frames(), 40U);
+    EXPECT_EQ(large.segments(large.segments_size() - 1).last_frame(), 39U) << "the newest stay";
+    EXPECT_EQ(published.all.counters().left_out, large.left_frames());
+}
+
+TEST(Publications, GoOnWithASessionOfTheSameOwnerAndSettingsAlone) {
+    Published published;
+    const auto publish = [&](const std::string& owner, const Settings& of) {
+        const auto session = published.all.observe(identity(1, owner), of);
+        session->encoded(std::make_shared<const EncodedFrame>(encoded_frame(0, {"a"}, 0)));
+        session->ended();
+        return manifest_of(*published.all.find(id_of(1))).frames();
+    };
+    EXPECT_EQ(publish("ada", settings()), 1U);
+    EXPECT_EQ(publish("ada", settings()), 2U);
+    EXPECT_EQ(publish("ben", settings()), 1U) << "nobody's surface is shown under the name of another";
+    EXPECT_EQ(published.all.find(id_of(1))->owner(), "ben");
+    Settings others = settings();
+    others.iso = 0.5;
+    EXPECT_EQ(publish("ben", others), 1U);
+    EXPECT_EQ(published.all.count(), 1U);
+}
+
+TEST(Publications, AreForgottenSomeTimeAfterTheirSessionsAndTheLongestEndedFirst) {
+    Published published;
+    std::vector<std::shared_ptr<SessionObserver>> sessions;
+    for (int i = 0; i < 6; ++i) sessions.push_back(published.all.observe(identity(i), settings()));
+    for (int i = 0; i < 5; ++i) sessions[static_cast<std::size_t>(i)]->ended();
+    published.all.tidy(Clock::now());
+    EXPECT_EQ(published.all.count(), most_ended + 1);
+    EXPECT_FALSE(published.all.find(id_of(0)));
+    EXPECT_TRUE(published.all.find(id_of(4)));
+    EXPECT_FALSE(manifest_of(*published.all.find(id_of(4))).live());
+    published.all.tidy(Clock::now() + std::chrono::seconds(59));
+    EXPECT_EQ(published.all.count(), most_ended + 1);
+    published.all.tidy(Clock::now() + std::chrono::minutes(2));
+    EXPECT_EQ(published.all.count(), 1U) << "that of the session that lives";
+    EXPECT_TRUE(published.all.find(id_of(5)));
+}
+
+}  // namespace
+}  // namespace meniscus::server::test
