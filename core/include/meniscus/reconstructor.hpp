@@ -19,7 +19,8 @@
 namespace meniscus {
 
 /// Reconstructs the surface of particle frames, one after the other, and keeps its buffers between them.
-/// One reconstructor is used by one thread at a time, send_ahead() aside; several may live side by side.
+/// One reconstructor is used by one thread at a time, send_ahead() aside; several may live side by side. Their frames
+/// take turns on a GPU.
 class Reconstructor {
 public:
     /// Throws InvalidInput for settings or a number of threads out of range, and for a backend or processor that cannot
