@@ -11,8 +11,8 @@
 
 #include "codec/attribute_values.hpp"
 #include "codec/brick_index.hpp"
+#include "codec/coded_bits.hpp"
 #include "codec/draco_attributes.hpp"
-#include "codec/normal_rounding.hpp"
 #include "codec/round_position.hpp"
 #include "codec/triangle_levels.hpp"
 #include "meniscus/array_form.hpp"
@@ -115,16 +115,6 @@ std::vector<std::byte> encode(const BrickContent& content, const CodingOptions& 
 }
 
 }  // namespace
-
-std::uint32_t encoded_offset_bits(const Mesh& mesh, const CodingOptions& options) {
-    if (options.position_bits == 0) return mesh.offset_bits;
-    if (options.position_bits < static_cast<int>(min_offset_bits) ||
-        static_cast<std::uint32_t>(options.position_bits) > mesh.offset_bits)
-        throw InvalidInput("position bits are " + std::to_string(options.position_bits) + ", must be " +
-                           std::to_string(min_offset_bits) + " to " + std::to_string(mesh.offset_bits) +
-                           ", or 0 for all");
-    return static_cast<std::uint32_t>(options.position_bits);
-}
 
 BrickContent brick_content(const Mesh& mesh, std::size_t brick_number, const CodingOptions& options,
                            BrickScratch& scratch) {

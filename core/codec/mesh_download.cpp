@@ -1,7 +1,7 @@
 #include "meniscus/mesh_download.hpp"
 
 #include "codec/attribute_values.hpp"
-#include "codec/normal_rounding.hpp"
+#include "codec/coded_bits.hpp"
 
 namespace meniscus {
 

@@ -7,15 +7,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "codec/coded_bits.hpp"
 #include "meniscus/brick_coding.hpp"
-#include "meniscus/error.hpp"
 
 namespace meniscus {
-
-void check_normal_bits(int normal_bits) {
-    if (normal_bits != 0 && (normal_bits < 2 || normal_bits > 16))
-        throw InvalidInput("normal bits are " + std::to_string(normal_bits) + ", must be 2 to 16, or 0 for no normals");
-}
 
 Normal decoded_normal(const draco::PointAttribute& attribute, std::uint32_t point) {
     std::array<float, 3> n{};

@@ -2,8 +2,8 @@
 #include <string>
 #include <utility>
 
+#include "codec/coded_bits.hpp"
 #include "codec/lattice/lattice_coder.hpp"
-#include "codec/normal_rounding.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/packed_bricks.hpp"

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "base/instruction_set.hpp"
 #include "meniscus/backend_options.hpp"
 #include "meniscus/device_mesh.hpp"
+#include "meniscus/device_packed_frame.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"
@@ -32,6 +34,11 @@ public:
     /// As reconstruct(), but the mesh stays where it is until the next call. Of its attributes only the data are set.
     virtual DeviceMesh reconstruct_on_device(const PlacedFrame&, Statistics&) {
         throw InvalidInput("the CPU backend has no mesh on a GPU: use reconstruct(), or the backend cuda");
+    }
+    /// Packs the last mesh where it lies. mesh: empty, with what all meshes of the frame have: its lattice, and the
+    /// forms of its attributes; options: in range for it. Fills the bricks of `packed`, their memory and attributes.
+    virtual void pack_on_device(Mesh&, const CodingOptions&, std::span<const AttributeWish>, DevicePackedFrame&) {
+        throw InvalidInput("the CPU backend packs no bricks on a GPU: use encode_brick(), or the backend cuda");
     }
     /// validate() for a frame whose lengths are valid and whose arrays are device pointers, once what is on `stream`
     /// (a cudaStream_t) is done. Changes nothing. The frame may then be reconstructed.

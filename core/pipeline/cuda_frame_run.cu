@@ -22,14 +22,16 @@
 //
 // Arrays of the caller's that are not pinned are copied through memory that is. What overlaps: a frame's kernels with
 // the next one's upload and with the download of the mesh before, pieces of a copy through pinned memory with copying
-// into it or out of it, and whole frames of different sessions, each on streams of its own.
+// into it or out of it. Frames of different sessions take turns (engine/cuda/device_turn.hpp).
 #include "pipeline/cuda_frame_run.hpp"
 
 #include <algorithm>
 #include <bit>
+#include <mutex>
 #include <string>
 #include <utility>
 
+#include "engine/cuda/device_turn.hpp"
 #include "engine/growth.hpp"
 #include "engine/index_limit.hpp"
 #include "pipeline/cuda_pipeline.hpp"
@@ -98,7 +100,20 @@ void FrameRun::run(const PlacedFrame& placed) {
 void FrameRun::run_until_it_fits(const PlacedFrame& placed, const FrameArrays& arrays, UploadAreas::Place place,
                                  bool grown) {
     for (;;) {
-        if (stop_.is_raised()) throw Stopped();
+        run_once(placed, arrays, place, grown);
+        require_whole_guards();
+        if (counts().stop == Stop::none) break;
+        require_no_refusal();
+        make_more_room();
+        grown = true;
+    }
+    settled_ = !grown;
+}
+
+void FrameRun::run_once(const PlacedFrame& placed, const FrameArrays& arrays, UploadAreas::Place& place, bool grown) {
+    const std::lock_guard turn(turn_on(device_));
+    if (stop_.is_raised()) throw Stopped();
+    try {
         poison();
         clock_.start(stream_.get());
         if (!std::exchange(place.is_filled, true))
@@ -111,13 +126,11 @@ void FrameRun::run_until_it_fits(const PlacedFrame& placed, const FrameArrays& a
         else
             enqueue(false);
         stream_.synchronize();
-        require_whole_guards();
-        if (counts().stop == Stop::none) break;
-        require_no_refusal();
-        make_more_room();
-        grown = true;
+    } catch (...) {
+        // The turn lasts until the kernels have ended that are on the stream already.
+        stream_.settle();
+        throw;
     }
-    settled_ = !grown;
 }
 
 void FrameRun::capture(Graph& graph) {

@@ -75,6 +75,8 @@ private:
     /// grown: whether arrays have moved since the frame before.
     void run_until_it_fits(const PlacedFrame& particles, const FrameArrays& arrays, UploadAreas::Place place,
                            bool grown);
+    /// Waits for the turn on the device, runs the frame, and waits for it.
+    void run_once(const PlacedFrame& particles, const FrameArrays& arrays, UploadAreas::Place& place, bool grown);
     /// Puts a frame's kernels on the stream, behind the upload. captured: into a graph.
     void enqueue(bool captured);
     /// Where CUDA makes no graph, frames run without one from here on.

@@ -7,9 +7,12 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <span>
+#include <utility>
 
 #include "engine/arrays.hpp"
 #include "engine/cuda/state.hpp"
+#include "meniscus/device_packed_frame.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"
@@ -91,6 +94,19 @@ public:
         auto pending = std::make_shared<PendingMesh>(storage_, from, mesh);
         pending_[current_] = pending;
         return MeshDownload(std::move(pending));
+    }
+
+    /// Packs a mesh that stays; see BackendReconstruction::pack_on_device().
+    void pack(const MeshOnDevice& from, std::size_t bricks, Mesh& mesh, const CodingOptions& options,
+              std::span<const AttributeWish> wishes, DevicePackedFrame& packed) {
+        resize_for_overwrite(mesh.bricks, bricks);
+        PendingMesh stays(storage_, from, mesh);
+        CodingOptions of_all = options;
+        of_all.attributes = coded_attributes(mesh, stays.attribute_ranges(), wishes);
+        const auto of_mesh = stays.packed(of_all);
+        packed.bricks = of_mesh->all();
+        packed.memory = of_mesh;
+        packed.attributes = std::move(of_all.attributes);
     }
 
     /// Frees the sets when the reconstruction ends. A mesh's owner may keep its download for long, and the next

@@ -113,6 +113,18 @@ DeviceBytes DevicePackedBricks::on_device(std::size_t number) const {
     return {reinterpret_cast<const std::byte*>(memory_->words) + brick.place.at, brick.bytes, storage_->device};
 }
 
+std::vector<DevicePackedBrick> DevicePackedBricks::all() const {
+    std::vector<DevicePackedBrick> all;
+    all.reserve(bricks_.size());
+    for (std::size_t i = 0; i < bricks_.size(); ++i)
+        all.push_back({.coordinate = bricks_[i].coordinate,
+                       .vertices = bricks_[i].vertices,
+                       .triangles = bricks_[i].triangles,
+                       .hash = hash(i),
+                       .bytes = on_device(i)});
+    return all;
+}
+
 void DevicePackedBricks::leave(std::size_t brick) {
     const std::lock_guard lock(storage_->copying);
     bricks_[brick].is_left = true;

@@ -12,6 +12,7 @@
 #include "codec/lattice/pack_bricks.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/device_mesh.hpp"
+#include "meniscus/device_packed_frame.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/packed_bricks.hpp"
 #include "pipeline/cuda_mesh_storage.hpp"
@@ -41,6 +42,9 @@ public:
                        std::span<const BrickOnDevice> on_device, const CodingOptions& options,
                        std::shared_ptr<CopyTime> time);
     ~DevicePackedBricks() override;
+
+    /// Every brick, as DevicePackedFrame has it.
+    std::vector<DevicePackedBrick> all() const;
 
     ContentHash hash(std::size_t brick) const override {
         return {bricks_[brick].hash.of[0], bricks_[brick].hash.of[1]};

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "engine/cuda/block_counter.hpp"
 #include "engine/cuda/warp.hpp"
 #include "meniscus/error.hpp"
 #include "particles/attribute_choice.hpp"
@@ -33,6 +34,7 @@ __device__ void keep_greatest(Counter* found, Counter value) {
 __global__ void __launch_bounds__(block_threads)
     check_particles(const float* positions, const std::uint8_t* levels, std::uint32_t count, float farthest,
                     ParticleFindings* findings) {
+    __shared__ BlockCounter counter;
     Counter first_bad = 0;
     Counter coarsest = 0;
     std::uint32_t by_level[max_particle_level + 1] = {};
@@ -54,7 +56,7 @@ __global__ void __launch_bounds__(block_threads)
     keep_greatest(&findings->first_bad, first_bad);
     if (levels == nullptr) return;
     keep_greatest(&findings->coarsest, coarsest);
-    for (unsigned k = 0; k <= max_particle_level; ++k) add_of_lanes(&findings->by_level[k], by_level[k]);
+    for (unsigned k = 0; k <= max_particle_level; ++k) counter.add(&findings->by_level[k], Counter{by_level[k]});
 }
 
 __global__ void __launch_bounds__(block_threads)

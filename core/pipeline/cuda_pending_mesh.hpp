@@ -49,17 +49,29 @@ public:
     }
     void finish() override { bring_first(std::numeric_limits<std::size_t>::max()); }
     std::shared_ptr<PackedBricks> pack(const CodingOptions& options) override {
+        try {
+            return packed(options);
+        } catch (const LimitExceeded&) {
+            return nullptr;  // the mesh itself needs no more than it has
+        }
+    }
+    /// The same; throws LimitExceeded where there is too little memory.
+    std::shared_ptr<DevicePackedBricks> packed(const CodingOptions& options) {
         const std::lock_guard lock(storage_->copying);
         if (error_) std::rethrow_exception(error_);
         if (done_ || !keeps_lattice()) return nullptr;
-        return guarded([&]() -> std::shared_ptr<PackedBricks> {
+        std::exception_ptr no_room;
+        auto bricks = guarded([&]() -> std::shared_ptr<DevicePackedBricks> {
             list_bricks();
             try {
                 return std::make_shared<DevicePackedBricks>(storage_, from_, to_, on_device_, options, time_);
             } catch (const LimitExceeded&) {
-                return nullptr;  // the mesh itself needs no more than it has
+                no_room = std::current_exception();
+                return nullptr;
             }
         });
+        if (no_room) std::rethrow_exception(no_room);
+        return bricks;
     }
     std::vector<AttributeRange> attribute_ranges() override {
         const std::lock_guard lock(storage_->copying);
@@ -145,7 +157,7 @@ private:
 
     std::vector<AttributeRange> ranges_on_device() {
         std::vector<AttributeRange> ranges;
-        if (to_.vertices.empty() || to_.attributes.empty()) return ranges;
+        if (from_.mesh.vertex_count == 0 || to_.attributes.empty()) return ranges;
         auto memory = storage_->packing_memory();
         cudaStream_t stream = storage_->stream.get();
         const std::size_t bytes = to_.attributes.size() * sizeof(AttributeExtremes);

@@ -65,6 +65,14 @@ public:
         return mesh_on_device();
     }
 
+    void pack_on_device(Mesh& mesh, const CodingOptions& options, std::span<const AttributeWish> wishes,
+                        DevicePackedFrame& packed) override {
+        const CurrentDevice current(device_);
+        if (!run_.state().keeps_lattice)
+            throw InvalidInput("the mesh came without its lattice, which packed bricks are made of: set keep_lattice");
+        sets_.pack(mesh_with_lattice(mesh_on_device()), run_.needed(Resource::bricks), mesh, options, wishes, packed);
+    }
+
     AttributeNumbers numbers_on_device(const ParticleFrame& frame) override {
         const CurrentDevice current(device_);
         return run_.find_numbers(frame);
@@ -98,7 +106,7 @@ private:
         return mesh;
     }
 
-    MeshDownload download(const DeviceMesh& on_device, Mesh& mesh) {
+    MeshOnDevice mesh_with_lattice(const DeviceMesh& on_device) {
         const State& state = run_.state();
         MeshOnDevice from{.mesh = on_device, .bricks = state.mesh_bricks, .lattice = {}};
         if (state.keeps_lattice) {
@@ -110,7 +118,11 @@ private:
                             .offset_bits = on_device.offset_bits};
             from.lattice_blocks = static_cast<std::uint32_t>(run_.needed(Resource::lattice_blocks));
         }
-        return sets_.download(from, run_.needed(Resource::bricks), mesh);
+        return from;
+    }
+
+    MeshDownload download(const DeviceMesh& on_device, Mesh& mesh) {
+        return sets_.download(mesh_with_lattice(on_device), run_.needed(Resource::bricks), mesh);
     }
 
     int device_;

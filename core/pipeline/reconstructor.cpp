@@ -13,6 +13,7 @@
 
 #include "base/instruction_set.hpp"
 #include "base/processor.hpp"
+#include "codec/coded_bits.hpp"
 #include "engine/cuda/device.hpp"
 #include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"
@@ -151,6 +152,18 @@ public:
             warn(valid);
         });
         return mesh;
+    }
+
+    DevicePackedFrame pack_on_device(const CodingOptions& options, std::span<const AttributeWish> wishes) {
+        if (!has_surface_) throw InvalidInput("there is no surface to pack: reconstruct a frame first");
+        Mesh mesh;
+        adopt(mesh);
+        DevicePackedFrame frame;
+        frame.cell_size = mesh.cell_size;
+        frame.offset_bits = encoded_offset_bits(mesh, options);
+        check_normal_bits(options.normal_bits);
+        backend_->pack_on_device(mesh, options, wishes, frame);
+        return frame;
     }
 
     FrameUpload send_ahead(const ParticleFrame& frame) noexcept {
@@ -359,6 +372,9 @@ MeshDownload Reconstructor::reconstruct_for_download(const ParticleFrame& frame,
 }
 FrameUpload Reconstructor::send_ahead(const ParticleFrame& frame) noexcept {
     return impl_->send_ahead(frame);
+}
+DevicePackedFrame Reconstructor::pack_on_device(const CodingOptions& options, std::span<const AttributeWish> wishes) {
+    return impl_->pack_on_device(options, wishes);
 }
 void Reconstructor::emit_capped(int max_level, Mesh& mesh) {
     impl_->emit_capped(max_level, mesh);

@@ -146,9 +146,11 @@ __device__ void write_value(const AttributeOnDevice& attribute, std::uint32_t ve
         bits.put(attribute.range[c].number(reinterpret_cast<const float*>(value)[c]), width);
 }
 
-__global__ void __launch_bounds__(block_threads)
-    write_attribute(const LatticeOnDevice mesh, const PackedForm form, const AttributeOnDevice attribute,
-                    std::uint32_t bytes_before, const PackedPlace* places, std::uint32_t count, std::byte* all) {
+/// Without a wanted number of blocks the compiler takes 32 registers and spills.
+__global__ void __launch_bounds__(block_threads, 4)
+    write_attribute(const LatticeOnDevice mesh, const PackedForm form,
+                    const __grid_constant__ AttributeOnDevice attribute, std::uint32_t bytes_before,
+                    const PackedPlace* places, std::uint32_t count, std::byte* all) {
     for (std::uint32_t p = blockIdx.x; p < count; p += gridDim.x) {
         const KeptBrick brick = mesh.bricks[places[p].brick];
         const PackedPlaces fields(packed_counts(brick), form.offset_bits, form.normal_bits);

@@ -38,7 +38,12 @@ struct GridLoop {
     __device__ void each(std::uint64_t n, const Visit& visit) const {
         for (std::uint64_t i = first; i < n; i += step) visit(static_cast<Index>(i));
     }
-    /// Calls visit(i, whether i < n), the same number of times in all lanes of a warp.
+    /// Calls visit(i, whether i < n), the same number of times in all threads of a block, which give the same n.
+    template <class Visit>
+    __device__ void each_by_blocks(std::uint32_t n, const Visit& visit) const {
+        for (std::uint64_t i = first; i - threadIdx.x < n; i += step) visit(static_cast<std::uint32_t>(i), i < n);
+    }
+    /// The same in all lanes of a warp.
     template <class Index = std::uint32_t, class Visit>
     __device__ void each_together(Index n, const Visit& visit) const {
         n = same_in_all_lanes(n);
@@ -86,6 +91,20 @@ __device__ inline Counter take_places(Counter* counter, std::uint32_t count) {
     Counter first = 0;
     if (lane_index() == 0 && total != 0) first = atomicAdd(counter, static_cast<Counter>(total));
     return __shfl_sync(all_lanes, first, 0) + below;
+}
+
+/// A word of shared memory that other threads of the block change by atomic operations. A plain look is a race to
+/// compute-sanitizer alone, so that no test without a GPU tells the two apart.
+__device__ inline std::uint32_t look_among_atomics(const std::uint32_t& shared) {
+#ifdef __CUDA_ARCH__
+    std::uint32_t seen;
+    asm volatile("ld.relaxed.cta.shared.u32 %0, [%1];"
+                 : "=r"(seen)
+                 : "r"(static_cast<std::uint32_t>(__cvta_generic_to_shared(&shared))));
+    return seen;
+#else
+    return shared;  // the device in software, whose threads take turns
+#endif
 }
 
 /// The sum of the lanes' values, in all lanes.

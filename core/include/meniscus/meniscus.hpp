@@ -6,6 +6,7 @@
 #include "meniscus/canonical_order.hpp"
 #include "meniscus/codec.hpp"
 #include "meniscus/device_mesh.hpp"
+#include "meniscus/device_packed_frame.hpp"
 #include "meniscus/device_particles.hpp"
 #include "meniscus/devices.hpp"
 #include "meniscus/error.hpp"

@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "meniscus/backend_options.hpp"
 #include "meniscus/device_mesh.hpp"
+#include "meniscus/device_packed_frame.hpp"
 #include "meniscus/device_particles.hpp"
 #include "meniscus/frame_upload.hpp"
 #include "meniscus/mesh.hpp"
@@ -19,7 +21,8 @@
 namespace meniscus {
 
 /// Reconstructs the surface of particle frames, one after the other, and keeps its buffers between them.
-/// One reconstructor is used by one thread at a time, send_ahead() aside; several may live side by side.
+/// One reconstructor is used by one thread at a time, send_ahead() aside; several may live side by side. Their frames
+/// take turns on a GPU.
 class Reconstructor {
 public:
     /// Throws InvalidInput for settings or a number of threads out of range, and for a backend or processor that cannot
@@ -62,6 +65,13 @@ public:
     void reconstruct(const DeviceParticleFrame& frame, Mesh& mesh);
     [[nodiscard]] MeshDownload reconstruct_for_download(const DeviceParticleFrame& frame, Mesh& mesh);
     DeviceMesh reconstruct_on_device(const DeviceParticleFrame& frame);
+
+    /// After reconstruct_on_device(): that mesh as bricks of the profile lattice_packed, packed where it lies. After
+    /// another call the same of its mesh. options: normal_bits and position_bits alone. wishes: what the bricks have of
+    /// the attributes. Throws InvalidInput for options out of range, without a surface, without
+    /// BackendOptions::keep_lattice and on the CPU backend; LimitExceeded where the GPU's memory limit leaves no room,
+    /// and DeviceError, which leave the surface as it is.
+    DevicePackedFrame pack_on_device(const CodingOptions& options = {}, std::span<const AttributeWish> wishes = {});
 
     /// Emits the last frame's surface once more with no cell finer than max_level (1 to 3). The result is coarser, has
     /// fewer triangles, and is closed as well. The call is cheap: nothing is sampled, and only the steps from

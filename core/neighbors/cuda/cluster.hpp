@@ -28,15 +28,16 @@ struct ClusterMark {
     }
 };
 
-/// Puts the clusters of some blocks on a list, each by one of its blocks. All lanes of a warp call it; chosen: whether
-/// this lane's block is. A block is chosen once.
-__device__ inline void list_clusters(const State& state, List list, std::uint32_t block, bool chosen) {
+/// Puts the clusters of some blocks on a list, each by one of its blocks. chosen: whether this thread's block is; a
+/// block is chosen once. take: take_places() or BlockCounter's, whose callers must all call this.
+template <class Take>
+__device__ void list_clusters(const State& state, List list, std::uint32_t block, bool chosen, const Take& take) {
     bool is_first = false;
     if (chosen) {
         const ClusterMark mark(state, state.brick[block], state.place[block]);
         is_first = (atomicOr(mark.word, mark.bit) & mark.bit) == 0;
     }
-    const std::uint32_t at = take_places(&state.counts->listed[static_cast<int>(list)], is_first ? 1 : 0);
+    const std::uint32_t at = take(&state.counts->listed[static_cast<int>(list)], is_first ? 1 : 0);
     if (is_first) state.chosen[at] = block;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <tuple>
 
+#include "engine/cuda/block_counter.hpp"
 #include "engine/cuda/warp.hpp"
 #include "engine/cuda/warp_signs.hpp"
 #include "steps/cuda_steps.hpp"
@@ -14,27 +15,27 @@ namespace meniscus::cuda {
 namespace {
 
 __global__ void __launch_bounds__(block_threads) list_band(const __grid_constant__ State state) {
+    __shared__ BlockCounter counter;
     const BlocksView blocks = state.blocks();
     std::uint32_t band_cells[3] = {0, 0, 0};
-    GridLoop{}.each_together(blocks.count, [&](std::uint32_t b, bool exists) {
+    GridLoop{}.each_by_blocks(blocks.count, [&](std::uint32_t b, bool exists) {
         const int level = exists ? blocks.level[b] : 0;
-        for (int l = 1; l <= 3; ++l)
-            band_cells[l - 1] += static_cast<std::uint32_t>(__popc(__ballot_sync(all_lanes, level == l ? 1 : 0)));
-        const std::uint32_t at = take_places(&state.counts->listed[static_cast<int>(List::band)], level != 0 ? 1 : 0);
+        for (int l = 1; l <= 3; ++l) band_cells[l - 1] += level == l ? 1 : 0;
+        const std::uint32_t at =
+            counter.take_places(&state.counts->listed[static_cast<int>(List::band)], level != 0 ? 1 : 0);
         if (level != 0)
             state.band_cells[at] = b;
         else if (exists)
             state.triangles_before[b] = {};
     });
-    if (lane_index() == 0)
-        for (int l = 0; l < 3; ++l)
-            if (band_cells[l] != 0) atomicAdd(&state.counts->band_cells[l], band_cells[l]);
+    for (int l = 0; l < 3; ++l) counter.add(&state.counts->band_cells[l], band_cells[l]);
 }
 
 /// One warp for every four cells of the band.
 __global__ void __launch_bounds__(block_threads) count_cells(const __grid_constant__ State state) {
     __shared__ std::uint8_t triangles[cube_case_count];
     __shared__ WarpSigns all_signs[block_warps];
+    __shared__ BlockCounter counter;
     static_assert(block_threads == cube_case_count);
     triangles[threadIdx.x] = state.cube_table[threadIdx.x].triangles;
     __syncthreads();
@@ -63,7 +64,7 @@ __global__ void __launch_bounds__(block_threads) count_cells(const __grid_consta
         // By constants alone: an array that is not in registers would be in slow local memory.
         for (int level = 1; level <= 3; ++level) total[level - 1] += cells.level == level ? own : 0;
     });
-    for (int level = 1; level <= 3; ++level) add_of_lanes(&state.counts->triangles[level - 1], total[level - 1]);
+    for (int level = 1; level <= 3; ++level) counter.add(&state.counts->triangles[level - 1], total[level - 1]);
 }
 
 /// A lane finds out whether a cell has a coarser neighbor; those that have go through the warp four at a time.
@@ -72,6 +73,7 @@ __global__ void __launch_bounds__(block_threads) count_cracks(const __grid_const
     __shared__ WarpSigns all_signs[block_warps];
     __shared__ WarpCracks all_cracks[block_warps];
     __shared__ std::uint32_t all_fine[block_warps][warp_threads];
+    __shared__ BlockCounter counter;
     const std::uint32_t* const of_level = state.counts->band_cells;
     // Cells of one level have no cracks.
     if ((of_level[0] != 0 ? 1 : 0) + (of_level[1] != 0 ? 1 : 0) + (of_level[2] != 0 ? 1 : 0) < 2) return;
@@ -117,7 +119,7 @@ __global__ void __launch_bounds__(block_threads) count_cracks(const __grid_const
         // The next cells are listed in the place of these.
         __syncwarp();
     });
-    add_of_lanes(&state.counts->triangles[crack], total);
+    counter.add(&state.counts->triangles[crack], total);
 }
 
 /// The mesh's order: by level, by brick within a level. Every thread adds up the few levels for itself.

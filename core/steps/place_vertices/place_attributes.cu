@@ -1,5 +1,6 @@
 // Attributes of the vertices, once those have their places: a warp for every cluster of blocks with vertices. A kernel
 // of its own, so that those of frames without attributes keep their registers.
+#include "engine/cuda/block_counter.hpp"
 #include "engine/cuda/warp.hpp"
 #include "field/cubic_spline.hpp"
 #include "field/poly6.hpp"
@@ -57,6 +58,7 @@ using SharedParticles = ClusterNeighbors<Kernel, true>;
 template <class Kernel, unsigned K>
 __global__ void __launch_bounds__(block_threads) place_group(const __grid_constant__ State state, unsigned group) {
     __shared__ SharedParticles<Kernel> shared[block_warps];
+    __shared__ BlockCounter counter;
     const BlocksView blocks = state.blocks();
     const float units_per_step = static_cast<float>(units_per_cell >> state.settings.offset_bits);
     const int steps_per_base_cell = base_cell_size << state.settings.offset_bits;
@@ -107,7 +109,7 @@ __global__ void __launch_bounds__(block_threads) place_group(const __grid_consta
                 group_numbers[k].write(state.vertex_attributes[group_numbers[k].array], place.number, values.of + k, 1);
         }
     });
-    if (group == 0) add_of_lanes(&state.counts->vertices_without_particles, lonely);
+    if (group == 0) counter.add(&state.counts->vertices_without_particles, lonely);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Step 6 on the GPU: a warp for every cluster of blocks with vertices.
 #include "steps/place_vertices/place_vertices.hpp"
 
+#include "engine/cuda/block_counter.hpp"
 #include "engine/cuda/warp.hpp"
 #include "neighbors/cuda/particle_field.hpp"
 #include "steps/cuda_steps.hpp"
@@ -11,9 +12,10 @@ namespace meniscus::cuda {
 namespace {
 
 __global__ void __launch_bounds__(block_threads) count_vertices(const __grid_constant__ State state) {
+    __shared__ BlockCounter counter;
     const BlocksView blocks = state.blocks();
     Counter total = 0;
-    GridLoop{}.each_together(blocks.count, [&](std::uint32_t b, bool exists) {
+    GridLoop{}.each_by_blocks(blocks.count, [&](std::uint32_t b, bool exists) {
         std::uint32_t count = 0;
         if (exists) {
             EdgeMasks edges{};
@@ -25,10 +27,11 @@ __global__ void __launch_bounds__(block_threads) count_vertices(const __grid_con
             count = static_cast<std::uint32_t>(edges.count());
             state.first_vertex[b] = count;
         }
-        list_clusters(state, List::vertices, b, count != 0);
+        list_clusters(state, List::vertices, b, count != 0,
+                      [&](auto* places, std::uint32_t n) { return counter.take_places(places, n); });
         total += count;
     });
-    add_of_lanes(&state.counts->needed[static_cast<int>(Resource::vertices)], total);
+    counter.add(&state.counts->needed[static_cast<int>(Resource::vertices)], total);
 }
 
 /// One thread: whether there is room for the mesh.
@@ -67,6 +70,7 @@ template <bool bisects, class Field>
 __global__ void __launch_bounds__(block_threads, 2)
     place_listed(const __grid_constant__ State state, const Field field) {
     __shared__ typename Field::Shared shared[block_warps];
+    __shared__ BlockCounter counter;
     const BlocksView blocks = state.blocks();
     const int bits = static_cast<int>(state.settings.offset_bits);
     const float iso = state.settings.iso;
@@ -124,7 +128,8 @@ __global__ void __launch_bounds__(block_threads, 2)
             if (i < count) state.normals[place.number] = outward_normal(normal, cropped, v.axis, low_inside);
         }
     });
-    if (bisects && lane_index() == 0 && evaluations != 0) atomicAdd(&state.counts->field_evaluations, evaluations);
+    // All lanes of a warp have counted the same.
+    if (bisects) counter.add(&state.counts->field_evaluations, lane_index() == 0 ? evaluations : Counter{0});
 }
 
 }  // namespace

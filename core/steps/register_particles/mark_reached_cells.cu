@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/cuda/block_counter.hpp"
 #include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/sharing_lanes.hpp"
 #include "engine/cuda/sort_key.hpp"
@@ -95,6 +96,7 @@ private:
 /// ReachedBox::count(): for the frame, or where a domain will leave cells out, for each brick in members_before.
 template <unsigned count>
 __global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __grid_constant__ State state) {
+    __shared__ BlockCounter counter;
     const std::uint32_t n = state.particle_count();
     const BrickGridView grid = state.grid();
     LongLoop loop(state);
@@ -136,7 +138,7 @@ __global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __g
                         pairs += box.count();
                 }
     }
-    add_of_lanes(&state.counts->pairs, pairs);
+    counter.add(&state.counts->pairs, pairs);
 }
 
 /// One warp for every brick: leaves out what lies beyond the domain, and counts the members.

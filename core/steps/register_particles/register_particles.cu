@@ -4,6 +4,7 @@
 #include <bit>
 #include <utility>
 
+#include "engine/cuda/block_counter.hpp"
 #include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/sort_key.hpp"
 #include "engine/cuda/warp.hpp"
@@ -23,11 +24,12 @@ __global__ void stop_if_crowded(const __grid_constant__ State state) {
 }
 
 __global__ void __launch_bounds__(block_threads) seed_probes(const __grid_constant__ State state) {
+    __shared__ BlockCounter counter;
     Counter seed = 0;
-    GridLoop{}.each_together(probe_count(state.particle_count()), [&](std::uint32_t i, bool exists) {
-        if (exists) seed += key_bits(particle_key(state.keys[std::uint64_t{i} * particles_per_probe]));
+    GridLoop{}.each(probe_count(state.particle_count()), [&](std::uint32_t i) {
+        seed += key_bits(particle_key(state.keys[std::uint64_t{i} * particles_per_probe]));
     });
-    add_of_lanes(&state.counts->probe_seed, seed);
+    counter.add(&state.counts->probe_seed, seed);
 }
 
 /// Whether the neighbors that were found for the probed particles are too many.

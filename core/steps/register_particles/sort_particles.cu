@@ -8,6 +8,7 @@
 #include <bit>
 #include <utility>
 
+#include "engine/cuda/block_counter.hpp"
 #include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/sort_key.hpp"
 #include "engine/cuda/warp.hpp"
@@ -62,9 +63,9 @@ __device__ void lay_boxes(const State& state) {
     if (!state.capacity.orders_whole_keys()) state.need(Resource::boxed_bricks, boxed);
 }
 
-/// One side of a box grows to hold a particle; most particles lie inside already.
+/// One side of a box, in shared memory, grows to hold a particle; most particles lie inside already.
 __device__ void grow(std::uint32_t& bound, std::uint32_t least) {
-    if (*const_cast<volatile std::uint32_t*>(&bound) < least) atomicMax(&bound, least);
+    if (look_among_atomics(bound) < least) atomicMax(&bound, least);
 }
 
 /// Also lays a box of bricks around the particles of each level.
@@ -204,6 +205,7 @@ __device__ std::uint32_t place_in_order(const State& state, std::uint32_t i, std
 /// crowded the cells are.
 __global__ void __launch_bounds__(block_threads)
     store_particles(const __grid_constant__ State state, bool has_payload) {
+    __shared__ BlockCounter counter;
     each_by_warp(state.count(Resource::particle_bricks),
                  [&](std::uint32_t b) { count_by_warp(state.particle_bricks[b]); });
     Counter crowd = 0;
@@ -221,7 +223,7 @@ __global__ void __launch_bounds__(block_threads)
         state.particles[place] = p;
         if (has_payload) state.sources[place] = state.order[i];
     });
-    add_of_lanes(&state.counts->crowd, crowd);
+    counter.add(&state.counts->crowd, crowd);
     state.require_room_at_end(RoomFinder::particles, Resource::cell_particles);
 }
 

@@ -1,8 +1,8 @@
 // The smooth field's supports and weights, for all particles of a frame.
 #include "steps/register_particles/supports.hpp"
 
+#include "engine/cuda/block_counter.hpp"
 #include "engine/cuda/sort_key.hpp"
-#include "engine/cuda/warp.hpp"
 #include "steps/cuda_steps.hpp"
 #include "steps/register_particles/particle_sums.hpp"
 
@@ -11,6 +11,7 @@ namespace {
 
 /// Also counts the particles alone, and marks them where they are to be listed.
 __global__ void __launch_bounds__(block_threads) fit_kernels(const __grid_constant__ State state) {
+    __shared__ BlockCounter counter;
     const std::uint32_t n = state.particle_count();
     Counter spray = 0;
     GridLoop{}.each(state.capacity.particles, [&](std::uint32_t i) {
@@ -24,7 +25,7 @@ __global__ void __launch_bounds__(block_threads) fit_kernels(const __grid_consta
         state.particles[i].w = kernel.weight;
         state.falls[i] = kernel.fall;
     });
-    add_of_lanes(&state.counts->spray_particles, spray);
+    counter.add(&state.counts->spray_particles, spray);
 }
 
 __global__ void __launch_bounds__(block_threads) list_spray(const __grid_constant__ State state) {

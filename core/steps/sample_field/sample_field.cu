@@ -1,6 +1,7 @@
 // Step 4 on the GPU: a warp for every cluster of blocks.
 #include "steps/sample_field/sample_field.hpp"
 
+#include "engine/cuda/block_counter.hpp"
 #include "engine/cuda/warp.hpp"
 #include "neighbors/cuda/cluster.hpp"
 #include "neighbors/cuda/particle_field.hpp"
@@ -129,9 +130,9 @@ __device__ inline UnitBox box_of_points(BlockMask missing, const Int3& step) {
 
 template <class Field>
 __device__ void sample_listed(const State& state, const Field& field, List list,
-                              ClusterSampling<Field> (&shared)[block_warps]) {
+                              ClusterSampling<Field> (&shared)[block_warps], BlockCounter& counter) {
     const BlocksView blocks = state.blocks();
-    std::uint32_t evaluations = 0;  // the evaluations of a warp are fewer than all samples
+    std::uint32_t evaluations = 0;  // the evaluations of a lane are fewer than all samples
     each_listed_cluster(state, blocks, list, [&](const Cluster& cluster) {
         cluster.unmark(state);
         const BlockMask missing =
@@ -145,17 +146,19 @@ __device__ void sample_listed(const State& state, const Field& field, List list,
                          cluster_step(k), own);
         }
     });
-    add_of_lanes(&state.counts->field_evaluations, evaluations);
+    counter.add(&state.counts->field_evaluations, Counter{evaluations});
 }
 
 __global__ void __launch_bounds__(block_threads, 4) list_corner_points(const __grid_constant__ State state) {
-    list_wanted_points(state, List::corner_points, [&](const BlocksView& blocks, std::uint32_t b) {
+    __shared__ BlockCounter counter;
+    list_wanted_points(state, List::corner_points, counter, [&](const BlocksView& blocks, std::uint32_t b) {
         return state.corner_points[b] = corner_points(LevelsAround(blocks, b));
     });
 }
 
 __global__ void __launch_bounds__(block_threads, 4) list_edge_middles(const __grid_constant__ State state) {
-    list_wanted_points(state, List::edge_middles, [&](const BlocksView& blocks, std::uint32_t b) {
+    __shared__ BlockCounter counter;
+    list_wanted_points(state, List::edge_middles, counter, [&](const BlocksView& blocks, std::uint32_t b) {
         return state.corner_points[b] == 0 || blocks.sampled[b] == ~BlockMask{0}
                    ? 0
                    : edge_middles(blocks, b, LevelsAround(blocks, b));
@@ -163,7 +166,8 @@ __global__ void __launch_bounds__(block_threads, 4) list_edge_middles(const __gr
 }
 
 __global__ void __launch_bounds__(block_threads) list_half_edge_middles(const __grid_constant__ State state) {
-    list_wanted_points(state, List::half_edge_middles, [&](const BlocksView& blocks, std::uint32_t b) {
+    __shared__ BlockCounter counter;
+    list_wanted_points(state, List::half_edge_middles, counter, [&](const BlocksView& blocks, std::uint32_t b) {
         return half_edge_middles(blocks.inside[b], state.wanted_points[b] & level1_middles);
     });
 }
@@ -181,7 +185,8 @@ template <class Field>
 __global__ void __launch_bounds__(block_threads, blocks_of_sampling<Field>)
     sample_list(const __grid_constant__ State state, const Field field, List list, RoomFinder kernel) {
     __shared__ ClusterSampling<Field> shared[block_warps];
-    sample_listed(state, field, list, shared);
+    __shared__ BlockCounter counter;
+    sample_listed(state, field, list, shared, counter);
     state.require_room_at_end(kernel, Resource::samples);
 }
 
@@ -191,10 +196,11 @@ template <Slivers slivers, class Field>
 __global__ void __launch_bounds__(block_threads, 2)
     settle_band(const __grid_constant__ State state, const Field field) {
     __shared__ ClusterSampling<Field> shared[block_warps];
+    __shared__ BlockCounter counter;
     Settling<slivers> settling(state);
     settling.begin();
     while (settling.raise()) {
-        sample_listed(state, field, List::later_round, shared);
+        sample_listed(state, field, List::later_round, shared, counter);
         // All blocks have begun: they have waited for each other.
         if (blockIdx.x == 0 && threadIdx.x == 0)
             state.need(Resource::samples, state.counts->needed[static_cast<int>(Resource::samples)]);

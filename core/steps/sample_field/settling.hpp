@@ -92,7 +92,8 @@ public:
             const BlockMask wanted = corner_points(levels_around_together(blocks_, block));
             const bool is_first = exists && i % 8 == 0;
             if (is_first) state_.corner_points[block] = wanted;
-            list_if_wanted(state_, List::later_round, is_first ? block : no_index, wanted);
+            list_if_wanted(state_, List::later_round, is_first ? block : no_index, wanted,
+                           [](auto* places, std::uint32_t n) { return take_places(places, n); });
         });
         Team::grid().wait();
         return true;

@@ -1,4 +1,5 @@
 // Curvature at a point of the surface in every cell of the band, a warp for every cluster of cells and a lane for each.
+#include "engine/cuda/block_counter.hpp"
 #include "engine/cuda/long_loop.hpp"
 #include "engine/cuda/warp.hpp"
 #include "neighbors/cuda/box_neighbors.hpp"
@@ -24,6 +25,7 @@ __device__ UnitBox box_of(const Point3<float>& p, bool counts) {
 template <class Kernel>
 __global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_constant__ State state) {
     __shared__ BoxNeighbors<Kernel, 4> neighbors[block_warps];
+    __shared__ BlockCounter counter;
     const BlocksView blocks = state.blocks();
     const BlobRule blobs{state.settings.blob_closest, state.settings.blob_level};
     const float iso = state.settings.iso;
@@ -79,7 +81,7 @@ __global__ void __launch_bounds__(block_threads, 2) measure_band(const __grid_co
                 cell_bend(search, inside_corners, blobs.least_level(inside_corners, state.reaches[block]));
         evaluations += is_asked ? (search.again == 1.0F ? 2 : 1) : 0;
     });
-    add_of_lanes(&state.counts->field_evaluations, evaluations);
+    counter.add(&state.counts->field_evaluations, evaluations);
 }
 
 }  // namespace

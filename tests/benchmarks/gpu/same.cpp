@@ -174,7 +174,8 @@ private:
         }
     }
 
-    /// All threads begin together, each with a backend of its own: their cooperative grids want the device at once.
+    /// All threads begin together, each with a backend of its own: their frames take turns, and what comes down does
+    /// not.
     void run_in_threads(const Case& chosen, const std::array<Scene, 2>& scenes) {
         struct Result {
             MeshDifference difference;

@@ -264,6 +264,22 @@ TEST_F(Cuda, TheMeshOnTheDeviceIsTheOneThatIsDownloaded) {
     EXPECT_EQ(gpu.statistics().triangles, mesh.triangles.size());
 }
 
+TEST_F(Cuda, AFrameThatIsPackedOnTheDeviceHasTheCpusBricks) {
+    const test::Particles particles = test::splash(7, 10);
+    BackendOptions options{Backend::cuda, 0, 0};
+    options.keep_lattice = true;
+    Reconstructor gpu(test::default_settings(), options);
+    static_cast<void>(gpu.reconstruct_on_device(particles.frame()));
+    const DevicePackedFrame frame = gpu.pack_on_device({.normal_bits = 0});
+    options.backend = Backend::cpu;
+    Mesh mesh;
+    Reconstructor(test::default_settings(), options).reconstruct(particles.frame(), mesh);
+    ASSERT_EQ(frame.bricks.size(), mesh.bricks.size());
+    for (std::size_t i = 0; i < frame.bricks.size(); ++i)
+        EXPECT_EQ(frame.memory->bring(i).data,
+                  encode_brick(mesh, i, {.normal_bits = 0, .codec = Codec::lattice_packed}).data);
+}
+
 TEST_F(Cuda, EveryStageOfAWarmFrameIsTimedAndNothingIsAllocated) {
     const test::Particles particles = test::splash(8, 20);
     Reconstructor gpu(test::default_settings(), {Backend::cuda, 0, 0});

@@ -39,6 +39,21 @@ public:
 
     /// The mesh waits on the device.
     void reconstruct(const ParticleFrame& frame) {
+        reconstruct(frame, [&](const PlacedFrame& placed) {
+            Statistics statistics;
+            download = backend_->reconstruct(placed, mesh, statistics);
+            std::ranges::fill(mesh.vertices, untouched);
+        });
+    }
+    /// It stays there.
+    void reconstruct_on_device(const ParticleFrame& frame) {
+        reconstruct(frame, [&](const PlacedFrame& placed) {
+            Statistics statistics;
+            static_cast<void>(backend_->reconstruct_on_device(placed, statistics));
+        });
+    }
+    template <class Call>
+    void reconstruct(const ParticleFrame& frame, const Call& call) {
         download = {};
         cpu_.reconstruct(frame, expected);
         mesh.clear();
@@ -48,9 +63,16 @@ public:
         placed.attributes = numbers_in_host_memory(chosen);
         choice_.keep(chosen);
         choice_.shape(mesh, account_);
-        Statistics statistics;
-        download = backend_->reconstruct(placed, mesh, statistics);
-        std::ranges::fill(mesh.vertices, untouched);
+        call(placed);
+    }
+    DevicePackedFrame pack_on_device(const CodingOptions& options, std::span<const AttributeWish> wishes = {}) {
+        Mesh described;
+        described.cell_size = mesh.cell_size;
+        described.offset_bits = mesh.offset_bits;
+        choice_.shape(described, account_);
+        DevicePackedFrame frame;
+        backend_->pack_on_device(described, options, wishes, frame);
+        return frame;
     }
 
     void expect_the_cpus_bricks(const CodingOptions& options) {
@@ -285,6 +307,71 @@ TEST(PackingEmulated, WithoutItsLatticeAMeshIsNotPacked) {
     EXPECT_EQ(device.download.pack(device.mesh, packed()), nullptr);
     device.download.finish();
     EXPECT_TRUE(device.mesh.lattice.bricks.empty());
+}
+
+void expect_the_same_bricks(const DevicePackedFrame& frame, const Mesh& expected, const CodingOptions& options) {
+    ASSERT_EQ(frame.bricks.size(), expected.bricks.size());
+    for (std::size_t i = 0; i < frame.bricks.size(); ++i) {
+        const DevicePackedBrick& brick = frame.bricks[i];
+        const EncodedBrick of_cpu = encode_brick(expected, i, options);
+        EXPECT_EQ(brick.coordinate, of_cpu.coordinate);
+        EXPECT_EQ(brick.vertices, of_cpu.vertices);
+        EXPECT_EQ(brick.triangles, of_cpu.triangles);
+        // The device's memory is the host's.
+        EXPECT_TRUE(std::ranges::equal(std::span(brick.bytes.data, brick.bytes.size), of_cpu.data)) << "brick " << i;
+        EXPECT_EQ(frame.memory->bring(i).data, of_cpu.data);
+    }
+}
+
+TEST(PackingEmulated, AFrameThatStaysOnTheDeviceHasTheCpusBricksThereWithoutACopyOfItsMesh) {
+    test::ParticlesWithArrays particles = test::with_noise(test::splash(8, 8), 2);
+    for (const Mode mode : {Mode::adaptive, Mode::uniform}) {
+        Settings settings = test::default_settings();
+        settings.all_attributes = true;
+        settings.mode = mode;
+        PackingDevice device(settings);
+        const std::vector<AttributeWish> all{{.name = {}, .bits = 8}};
+        for (int round = 0; round < 3; ++round) {
+            device.reconstruct_on_device(particles.frame());
+            const DevicePackedFrame frame = device.pack_on_device({.normal_bits = 6}, all);
+            EXPECT_EQ(frame.attributes, coded_attributes(device.expected, attribute_ranges(device.expected), all));
+            expect_the_same_bricks(frame, device.expected, packed({.normal_bits = 6, .attributes = frame.attributes}));
+            EXPECT_TRUE(device.mesh.vertices.empty());
+        }
+    }
+}
+
+TEST(PackingEmulated, AFrameThatWasPackedOnTheDeviceOutlivesTheNextAndTheReconstruction) {
+    auto device = std::make_unique<PackingDevice>(test::default_settings());
+    device->reconstruct_on_device(test::splash(1, 8).frame());
+    const Mesh expected = device->expected;
+    const DevicePackedFrame frame = device->pack_on_device({});
+    for (int i = 0; i < 2; ++i) {
+        device->reconstruct_on_device(test::splash(2, 6).frame());
+        expect_the_same_bricks(device->pack_on_device({}), device->expected, packed());
+    }
+    device.reset();
+    expect_the_same_bricks(frame, expected, packed());
+}
+
+TEST(PackingEmulated, WhatCannotBePackedOnTheDeviceIsRefusedAndTheMeshStays) {
+    const test::Particles particles = test::splash(1, 8);
+    PackingDevice without(test::default_settings(), 0, false);
+    without.reconstruct_on_device(particles.frame());
+    EXPECT_THROW(static_cast<void>(without.pack_on_device({})), InvalidInput);
+    PackingDevice probe(test::default_settings());
+    probe.reconstruct_on_device(particles.frame());
+    PackingDevice device(test::default_settings(), probe.device_account().peak_bytes() + 1024);
+    device.reconstruct_on_device(particles.frame());
+    EXPECT_THROW(static_cast<void>(device.pack_on_device({})), LimitExceeded);
+    Mesh capped;
+    capped.cell_size = device.expected.cell_size;
+    capped.offset_bits = device.expected.offset_bits;
+    device.backend().emit_capped(3, capped);
+    EXPECT_EQ(mesh_sha256(capped), mesh_sha256(device.expected));
+    PackingDevice empty(test::default_settings());
+    empty.reconstruct_on_device(ParticleFrame{});
+    EXPECT_TRUE(empty.pack_on_device({}).bricks.empty());
 }
 
 TEST(PackingEmulated, OptionsOutOfRangeAreRefused) {

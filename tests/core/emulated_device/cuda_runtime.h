@@ -63,6 +63,10 @@ T& shared(Place place = Place::current()) {
 void submit(cudaStream_t stream, const std::function<void()>& work);
 /// Called, if there, whenever a thread asks the clock.
 extern std::function<void()> on_clock;
+/// Called, if there, as a kernel begins to run.
+extern std::function<void(bool cooperative)> on_kernel;
+/// Called, if there, by the thread that makes an atomic addition, with its address.
+extern std::function<void(const void* at)> on_addition;
 void run_kernel(unsigned blocks, unsigned threads, bool cooperative, const std::function<void()>& kernel);
 /// Seed of the shuffles that choose the next thread; the same seed gives the same order.
 void seed_order(unsigned seed);
@@ -145,6 +149,7 @@ inline unsigned __float_as_uint(float value) {
 }
 template <class T>
 T atomicAdd(T* at, T value) {
+    if (emulated_device::on_addition) emulated_device::on_addition(at);
     const T before = *at;
     *at += value;
     return before;

@@ -24,6 +24,8 @@ namespace emulated_device {
 
 Index thread_index, block_index, block_size, grid_size;
 std::function<void()> on_clock;
+std::function<void(bool)> on_kernel;
+std::function<void(const void*)> on_addition;
 
 namespace {
 
@@ -263,6 +265,7 @@ void* shared_memory(std::size_t bytes, std::size_t alignment, unsigned line) {
 
 void run_kernel(unsigned blocks, unsigned threads, bool cooperative, const std::function<void()>& kernel) {
     static std::vector<std::unique_ptr<Block>> pool;
+    if (on_kernel) on_kernel(cooperative);
     kernel_body = &kernel;
     grid_size.x = blocks;
     block_size.x = threads;

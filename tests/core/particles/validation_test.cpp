@@ -291,6 +291,9 @@ TEST(Validation, TheCpuBackendTakesNoParticlesFromAGpuAndSaysSo) {
     EXPECT_TRUE(is_named(refusal([&] { static_cast<void>(cpu.reconstruct_on_device(frame)); })));
     EXPECT_TRUE(is_named(refusal([&] { static_cast<void>(cpu.reconstruct_for_download(frame, mesh)); })));
     EXPECT_TRUE(is_named(refusal([&] { cpu.reconstruct(frame, mesh); })));
+    EXPECT_NE(
+        refusal([&] { static_cast<void>(cpu.pack_on_device()); }).find("the CPU backend packs no bricks on a GPU"),
+        std::string::npos);
     EXPECT_NE(refusal([&] {
                   cpu.reconstruct(DeviceParticleFrame{nullptr, 5}, mesh);
               }).find("its positions are null"),
