@@ -95,12 +95,13 @@ public:
             if (has(segment.run_id, segment.first_frame))
                 throw InvalidInput(folder.string() + ": its frame " + std::to_string(segment.first_frame) +
                                    " is one of those that are published in " + folder_.string());
-            take_file(folder / segment.file(), folder_ / segment.file());
+            take_file(folder, segment);
             info_.frames += segment.frames;
             info_.bytes += segment.bytes;
             info_.segments.push_back(segment);
         }
         for (const FrameAttribute& attribute : more.attributes) take_attribute(attribute);
+        drop_old();
         write_manifest();
     }
 
@@ -138,12 +139,12 @@ private:
                                std::string(name_of(there.normals_by)));
     }
 
-    /// A link, so that the file is in both folders until the manifest names it; a copy where there are no links.
-    static void take_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+    /// By a link, or, where there are none, a copy: the file stays there until the manifest names it here.
+    void take_file(const std::filesystem::path& folder, const PublishedSegment& segment) const {
+        const std::filesystem::path from = folder / segment.file();
         std::error_code error;
-        std::filesystem::create_hard_link(from, to, error);
-        if (error) std::filesystem::copy_file(from, to, std::filesystem::copy_options::overwrite_existing, error);
-        if (error) throw std::runtime_error(to.string() + ": cannot be written: " + error.message());
+        std::filesystem::create_hard_link(from, folder_ / segment.file(), error);
+        if (error) write_durably(folder_ / segment.file(), read_whole(from, segment.bytes));
     }
 
     void take_attributes(const ReceivedFrame& frame) {
