@@ -14,6 +14,7 @@
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/client/client.hpp"
 #include "meniscus/reconstructor.hpp"
+#include "moving_frames.hpp"
 #include "report.hpp"
 #include "server_program.hpp"
 #include "warm_runs.hpp"
@@ -34,23 +35,6 @@ struct ServiceOptions {
     std::string program = "meniscusd";
     std::string out = "tests/benchmarks/results";
 };
-
-using Frames = std::vector<std::vector<float>>;
-
-/// The water moves by a fraction of a cell from frame to frame, so that no brick is ever the same again.
-Frames moving(const std::vector<float>& water, const Settings& settings, unsigned count) {
-    Frames frames(count, water);
-    const double step = 0.37 * settings.cell_size * settings.particle_radius;
-    for (unsigned i = 0; i < count; ++i)
-        for (float& coordinate : frames[i]) coordinate += static_cast<float>(i * step);
-    return frames;
-}
-
-ParticleFrame frame_of(const std::vector<float>& positions) {
-    ParticleFrame frame;
-    frame.positions = positions;
-    return frame;
-}
 
 /// Processor time of one frame in this process, seconds: one thread reconstructs while another one encodes the frame
 /// before. Two cores may be one core's two threads, and each then takes more processor time than alone: as in the
