@@ -97,6 +97,23 @@ def check_service(bench, meniscusd, folder):
     check(missing.returncode == 1 and "nowhere" in missing.stderr, f"service: a missing program gives {missing}")
 
 
+def check_delivery(bench, meniscusd, folder):
+    """Each codec brings the same surface to the watcher, in a time that holds that of its reconstruction."""
+    subprocess.run(
+        [bench, "delivery", "--meniscusd", meniscusd, "--particles", "4000", "--frames", "3", "--out", folder],
+        check=True,
+    )
+    rows = {row["codec"]: row for row in read_rows(folder, "delivery")}
+    check(list(rows) == ["packed", "entropy", "draco"], f"delivery: {rows}")
+    for row in rows.values():
+        seconds = {name: float(row[f"{name}_seconds"]) for name in ("first", "median", "least", "reconstruction")}
+        check(0 < seconds["reconstruction"] < seconds["median"], f"delivery: {row}")
+        check(0 < seconds["least"] <= seconds["median"] and seconds["first"] > 0, f"delivery: {row}")
+        check(int(row["triangles"]) > 1000 and int(row["particles"]) == 4000, f"delivery: {row}")
+    check(len({row["triangles"] for row in rows.values()}) == 1, f"delivery: other surfaces: {rows}")
+    check(int(rows["entropy"]["bytes"]) < int(rows["packed"]["bytes"]), f"delivery: {rows}")
+
+
 def check_quality(bench, folder):
     """The plain field has the figures that are known for it; wrong input is refused; the page can be written."""
     few = ["--shapes", "drops", "--field", "color", "--mode", "uniform", "--out", folder]
@@ -169,6 +186,7 @@ def main():
         lines = [len(xml.etree.ElementTree.parse(p).findall("{http://www.w3.org/2000/svg}polyline")) for p in plots]
         check(lines == [2, 2, 8, 4], f"experiment: lines in the plots are {lines}")
         check_service(bench, sys.argv[2], folder)
+        check_delivery(bench, sys.argv[2], folder)
         check_quality(bench, folder)
         check_codecs(bench, min((folder / "particles").glob("*.vtk")), folder)
     check_goals(bench)

@@ -1,4 +1,4 @@
-// A thread block writes a brick, a thread its blocks: where their bits go is known beforehand.
+// A thread block writes a part of a brick, a thread its blocks: where their bits go is known beforehand.
 #include "codec/lattice/pack_bricks.hpp"
 
 #include "codec/lattice/bit_stream.hpp"
@@ -60,10 +60,21 @@ struct CellRows {
     }
 };
 
-/// Calls visit(block, kept block) for those of a brick, neighboring ones in neighboring threads.
+/// Parts of a brick. One thread block for a whole brick would keep the device waiting for the fullest one.
+constexpr std::uint32_t parts_of_brick = 8;
+
+/// Calls visit(place, part) for all parts of the bricks, each by all threads of one thread block of the grid.
 template <class Visit>
-__device__ void for_each_block(const LatticeOnDevice& mesh, const KeptBrick& brick, const Visit& visit) {
-    for (std::uint32_t i = threadIdx.x; i < brick.blocks; i += block_threads)
+__device__ void each_part_of_bricks(const PackedPlace* places, std::uint32_t count, const Visit& visit) {
+    for (std::uint64_t i = blockIdx.x; i < std::uint64_t{parts_of_brick} * count; i += gridDim.x)
+        visit(places[i / parts_of_brick], static_cast<std::uint32_t>(i % parts_of_brick));
+}
+
+/// Calls visit(block, kept block) for those of a part of a brick, neighboring ones in neighboring threads.
+template <class Visit>
+__device__ void for_each_block(const LatticeOnDevice& mesh, const KeptBrick& brick, std::uint32_t part,
+                               std::uint32_t parts, const Visit& visit) {
+    for (std::uint32_t i = part * block_threads + threadIdx.x; i < brick.blocks; i += parts * block_threads)
         visit(mesh.blocks[brick.first + i], mesh.kept[brick.first + i]);
 }
 
@@ -100,39 +111,43 @@ __device__ void write_block(const LatticeOnDevice& mesh, const PackedForm& form,
     });
 }
 
+/// What a brick has once.
+__device__ void write_begin(const LatticeOnDevice& mesh, const PackedForm& form, const KeptBrick& brick,
+                            const PackedCounts& counts, const PackedPlaces& fields, CellRows& rows, std::byte* out) {
+    rows.row[threadIdx.x] = 0;
+    __syncthreads();
+    for_each_block(mesh, brick, 0, 1, [&](const LatticeBlock& block, const KeptBlock&) {
+        if (block.level == 0) return;
+        const Int3 at = closed_coordinate(block.place);
+        atomicOr(&rows.row[at.y + brick_size * at.z], 1U << at.x);
+    });
+    __syncthreads();
+    rows.write(out, fields.cells);
+    if (threadIdx.x == 0) {
+        const BrickHeader header{
+            .has_one_level = counts.has_one_level, .offset_bits = form.offset_bits, .normal_bits = form.normal_bits};
+        BitsAmongOthers(out, 0).put(header.word(), 8 * static_cast<int>(BrickHeader::size));
+        if (counts.has_one_level)
+            BitsAmongOthers(out, fields.levels).put(static_cast<unsigned>(lowest_bit(brick.levels)) - 1, level_bits);
+    }
+    // The next brick's rows take the place of these.
+    __syncthreads();
+}
+
 __global__ void __launch_bounds__(block_threads)
     write_bricks(const LatticeOnDevice mesh, const PackedForm form, const PackedPlace* places, std::uint32_t count,
                  std::byte* all) {
     __shared__ CellRows rows;
-    for (std::uint32_t p = blockIdx.x; p < count; p += gridDim.x) {
-        const KeptBrick brick = mesh.bricks[places[p].brick];
+    each_part_of_bricks(places, count, [&](const PackedPlace& place, std::uint32_t part) {
+        const KeptBrick brick = mesh.bricks[place.brick];
         const PackedCounts counts = packed_counts(brick);
         const PackedPlaces fields(counts, form.offset_bits, form.normal_bits);
-        std::byte* const out = all + places[p].at;
-        rows.row[threadIdx.x] = 0;
-        __syncthreads();
-        for_each_block(mesh, brick, [&](const LatticeBlock& block, const KeptBlock&) {
-            if (block.level == 0) return;
-            const Int3 at = closed_coordinate(block.place);
-            atomicOr(&rows.row[at.y + brick_size * at.z], 1U << at.x);
-        });
-        __syncthreads();
-        rows.write(out, fields.cells);
-        if (threadIdx.x == 0) {
-            const BrickHeader header{.has_one_level = counts.has_one_level,
-                                     .offset_bits = form.offset_bits,
-                                     .normal_bits = form.normal_bits};
-            BitsAmongOthers(out, 0).put(header.word(), 8 * static_cast<int>(BrickHeader::size));
-            if (counts.has_one_level)
-                BitsAmongOthers(out, fields.levels)
-                    .put(static_cast<unsigned>(lowest_bit(brick.levels)) - 1, level_bits);
-        }
-        for_each_block(mesh, brick, [&](const LatticeBlock& block, const KeptBlock& kept) {
+        std::byte* const out = all + place.at;
+        if (part == 0) write_begin(mesh, form, brick, counts, fields, rows, out);
+        for_each_block(mesh, brick, part, parts_of_brick, [&](const LatticeBlock& block, const KeptBlock& kept) {
             write_block(mesh, form, counts, fields, block, kept, out);
         });
-        // The next brick's rows take the place of these.
-        __syncthreads();
-    }
+    });
 }
 
 __device__ void write_value(const AttributeOnDevice& attribute, std::uint32_t vertex, BitsAmongOthers& bits) {
@@ -151,32 +166,41 @@ __global__ void __launch_bounds__(block_threads, 4)
     write_attribute(const LatticeOnDevice mesh, const PackedForm form,
                     const __grid_constant__ AttributeOnDevice attribute, std::uint32_t bytes_before,
                     const PackedPlace* places, std::uint32_t count, std::byte* all) {
-    for (std::uint32_t p = blockIdx.x; p < count; p += gridDim.x) {
-        const KeptBrick brick = mesh.bricks[places[p].brick];
+    each_part_of_bricks(places, count, [&](const PackedPlace& place, std::uint32_t part) {
+        const KeptBrick brick = mesh.bricks[place.brick];
         const PackedPlaces fields(packed_counts(brick), form.offset_bits, form.normal_bits);
         const std::uint64_t first =
             fields.attributes + 8 * std::uint64_t{bytes_before} * std::uint64_t{brick.totals.vertices};
-        for_each_block(mesh, brick, [&](const LatticeBlock& block, const KeptBlock& kept) {
-            BitsAmongOthers bits(all + places[p].at,
+        for_each_block(mesh, brick, part, parts_of_brick, [&](const LatticeBlock& block, const KeptBlock& kept) {
+            BitsAmongOthers bits(all + place.at,
                                  first + 8 * std::uint64_t{attribute.coded_bytes} * kept.before.vertices);
             for_each_brick_vertex(block.edges, block.first_vertex, kept.edges,
                                   [&](int, std::uint32_t vertex) { write_value(attribute, vertex, bits); });
         });
-    }
+    });
 }
 
-/// One warp for every brick.
+/// One thread block for every brick.
 __global__ void __launch_bounds__(block_threads)
     sum_words(const PackedPlace* places, std::uint32_t count, const std::byte* all, PackedHash* hashes) {
-    each_by_warp(count, [&](std::uint32_t p) {
+    __shared__ PackedHash of_warps[block_warps];
+    for (std::uint32_t p = blockIdx.x; p < count; p += gridDim.x) {
         const auto* const words = reinterpret_cast<const std::uint64_t*>(all + places[p].at);
         PackedHash hash{};
-        for (std::uint32_t i = lane_index(); i < places[p].words; i += warp_threads) hash.add(words[i], i);
+        for (std::uint32_t i = threadIdx.x; i < places[p].words; i += block_threads) hash.add(words[i], i);
         for (std::uint64_t& sum : hash.of)
             for (unsigned distance = warp_threads / 2; distance > 0; distance /= 2)
                 sum += __shfl_xor_sync(all_lanes, sum, static_cast<int>(distance));
-        if (lane_index() == 0) hashes[p] = hash;
-    });
+        if (lane_index() == 0) of_warps[warp_in_block()] = hash;
+        __syncthreads();
+        if (threadIdx.x < 2) {
+            std::uint64_t sum = 0;
+            for (const PackedHash& of_warp : of_warps) sum += of_warp.of[threadIdx.x];
+            hashes[p].of[threadIdx.x] = sum;
+        }
+        // The next brick's sums take the place of these.
+        __syncthreads();
+    }
 }
 
 }  // namespace
@@ -192,18 +216,19 @@ AttributeOnDevice::AttributeOnDevice(const CodedAttribute& form, const std::byte
 
 void pack_bricks(const LatticeOnDevice& mesh, const PackedForm& form, const PackedPlace* places, std::uint32_t count,
                  std::byte* out, const Launcher& launch) {
-    launch(count, 1, write_bricks, mesh, form, places, count, out);
+    launch(std::uint64_t{parts_of_brick} * count, 1, write_bricks, mesh, form, places, count, out);
 }
 
 void pack_attribute(const LatticeOnDevice& mesh, const PackedForm& form, const AttributeOnDevice& attribute,
                     std::uint32_t bytes_before, const PackedPlace* places, std::uint32_t count, std::byte* out,
                     const Launcher& launch) {
-    launch(count, 1, write_attribute, mesh, form, attribute, bytes_before, places, count, out);
+    launch(std::uint64_t{parts_of_brick} * count, 1, write_attribute, mesh, form, attribute, bytes_before, places,
+           count, out);
 }
 
 void hash_packed_bricks(const PackedPlace* places, std::uint32_t count, const std::byte* bytes, PackedHash* hashes,
                         const Launcher& launch) {
-    launch(count, block_warps, sum_words, places, count, bytes, hashes);
+    launch(count, 1, sum_words, places, count, bytes, hashes);
 }
 
 }  // namespace meniscus::cuda

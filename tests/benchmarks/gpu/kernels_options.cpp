@@ -41,16 +41,23 @@ void add_kernels_command(CLI::App& app, void (*run)(const KernelsOptions&)) {
                     "times the multiprocessors; 0: --particles")
         ->needs(model)
         ->capture_default_str();
+    command
+        .add_flag("--packed", options->packs,
+                  "Also pack the frame's bricks, with normals of 8 bits: a sum of its own beside the frame's")
+        ->needs(model);
     command.callback([options, run] { run(*options); });
 }
 
 WarmFrame::WarmFrame(const KernelsOptions& options, std::size_t particles)
-    : positions_(make_any_water(by_name<WaterKind>(options.water, "water"), particles, 0.025F)) {
+    : positions_(make_any_water(by_name<WaterKind>(options.water, "water"), particles, 0.025F)),
+      keeps_lattice_(options.packs) {
     settings_.particle_radius = 0.025;
     settings_.cell_size = options.cell_size;
     settings_.mode = by_name<Mode>(options.mode, "mode");
     settings_.field = by_name<Field>(options.field, "field");
-    backend_ = cuda::make_reconstruction(settings_, BackendOptions{}, std::make_shared<MemoryAccount>(),
+    BackendOptions backend;
+    backend.keep_lattice = keeps_lattice_;
+    backend_ = cuda::make_reconstruction(settings_, backend, std::make_shared<MemoryAccount>(),
                                          std::make_shared<MemoryAccount>());
 }
 
@@ -65,14 +72,17 @@ void WarmFrame::reconstruct() {
     static_cast<void>(backend_->reconstruct_on_device(frame(), statistics));
 }
 
-void WarmFrame::reconstruct_as_the_cpu_does() {
+void WarmFrame::reconstruct_as_the_cpu_does(
+    const std::function<void(const MeshDownload&, const Mesh&, const Mesh&)>& before_it_comes) {
     Mesh expected;
-    Reconstructor(settings_, {.backend = Backend::cpu}).reconstruct(frame(), expected);
+    Reconstructor(settings_, {.backend = Backend::cpu, .keep_lattice = keeps_lattice_}).reconstruct(frame(), expected);
     Mesh mesh;
     mesh.cell_size = expected.cell_size;
     mesh.offset_bits = expected.offset_bits;
     Statistics statistics;
-    backend_->reconstruct(frame(), mesh, statistics).finish();
+    const MeshDownload download = backend_->reconstruct(frame(), mesh, statistics);
+    before_it_comes(download, mesh, expected);
+    download.finish();
     const MeshDifference difference = find_difference(expected, mesh);
     if (difference.any()) throw std::runtime_error("the mesh is not the CPU's: " + difference.first);
 }

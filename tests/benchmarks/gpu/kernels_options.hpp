@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ struct KernelsOptions {
     std::string ptx;           ///< folder that kernel-ptx has written
     std::string gpu = "H200";  ///< a row of gpus.csv
     std::size_t counted = 0;   ///< particles of the frame that is counted; 0: as many as there are
+    bool packs = false;        ///< whether its bricks are packed
 };
 
 /// The subcommand with all its flags; run is called for it.
@@ -40,7 +42,12 @@ public:
     void reconstruct();
     /// The same, with its mesh as the host gets it, which is held against the CPU's. Throws std::runtime_error where it
     /// differs.
-    void reconstruct_as_the_cpu_does();
+    void reconstruct_as_the_cpu_does() {
+        reconstruct_as_the_cpu_does([](const MeshDownload&, const Mesh&, const Mesh&) {});
+    }
+    /// before_it_comes: gets the download, its mesh, and the CPU's.
+    void reconstruct_as_the_cpu_does(
+        const std::function<void(const MeshDownload&, const Mesh&, const Mesh&)>& before_it_comes);
     /// Until it launches the same again and again.
     void warm_up();
     std::size_t particles() const { return positions_.size() / 3; }
@@ -50,6 +57,7 @@ private:
 
     std::vector<float> positions_;
     Settings settings_;
+    bool keeps_lattice_;
     std::unique_ptr<BackendReconstruction> backend_;
 };
 

@@ -3,6 +3,7 @@
 #include <cuda_runtime.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -17,6 +18,8 @@
 
 #include "engine/cuda/launch.hpp"
 #include "gpu/kernel_names.hpp"
+#include "meniscus/brick_coding.hpp"
+#include "meniscus/mesh_download.hpp"
 #include "model/gpu_constants.hpp"
 #include "model/price.hpp"
 #include "model/ptx_grid.hpp"
@@ -160,6 +163,29 @@ void add_kernel(Row& row, const Counted& counted, double times, Compiled& compil
     row["model_us"] = price.total();
 }
 
+/// What a session on a GPU does for the lattice codecs beside reconstructing, without attributes.
+bool is_of_packing(const std::string& kernel) {
+    constexpr std::array kernels{"keep_bricks", "require_room_for_lattice", "write_bricks", "sum_words"};
+    return std::ranges::find(kernels, kernel) != kernels.end();
+}
+
+/// Packs the bricks of a mesh that is on its way; returns their bytes. Throws std::runtime_error where one is not the
+/// CPU's.
+std::size_t pack_as_the_cpu_does(const MeshDownload& download, const Mesh& mesh, const Mesh& expected) {
+    const CodingOptions options{.codec = Codec::lattice_packed};
+    const auto packed = download.pack(mesh, options);
+    if (packed == nullptr || mesh.bricks.size() != expected.bricks.size())
+        throw std::runtime_error("the packed bricks are not the CPU's: their number");
+    std::size_t bytes = 0;
+    for (std::size_t i = 0; i < mesh.bricks.size(); ++i) {
+        const EncodedBrick brick = packed->bring(i);
+        if (brick.data != encode_brick(expected, i, options).data)
+            throw std::runtime_error("the packed bricks are not the CPU's: brick " + std::to_string(i));
+        bytes += brick.data.size();
+    }
+    return bytes;
+}
+
 Row empty_row() {
     Row row;
     for (const char* name : {"order",
@@ -204,12 +230,19 @@ void run_model(const KernelsOptions& options) {
     const auto processors = static_cast<unsigned>(std::max(1.0, std::round(gpu["processors"] / times)));
     CountingDevice device(kernels, gpu, processors);
     WarmFrame frame(options, counted_particles);
-    frame.reconstruct_as_the_cpu_does();
+    std::size_t packed_bytes = 0;
+    std::size_t triangles = 0;
+    frame.reconstruct_as_the_cpu_does([&](const MeshDownload& download, const Mesh& mesh, const Mesh& expected) {
+        triangles = expected.triangles.size();
+        if (options.packs) packed_bytes = pack_as_the_cpu_does(download, mesh, expected);
+    });
     device.keep_last_run();
 
     GrowingTable table(options.out, "kernels-model");
     double sum = 0.0;
+    double packing = 0.0;
     std::size_t order = 0;
+    std::size_t launches_of_packing = 0;
     for (const Counted& counted : device.launches()) {
         Row row = empty_row();
         row["order"] = ++order;
@@ -230,7 +263,12 @@ void run_model(const KernelsOptions& options) {
                             (sorts ? " by " + std::to_string(launch.key_bits) + " bits" : "");
             row["model_us"] = us;
         }
-        sum += us;
+        if (is_of_packing(row["kernel"])) {
+            packing += us;
+            ++launches_of_packing;
+        } else {
+            sum += us;
+        }
         table.add(row);
     }
     const auto add_total = [&](const char* name, double us, const char* bound = nullptr) {
@@ -240,7 +278,7 @@ void run_model(const KernelsOptions& options) {
         row["model_us"] = us;
         table.add(row);
     };
-    const double gaps = static_cast<double>(order) * gpu["launch_us"];
+    const double gaps = static_cast<double>(order - launches_of_packing) * gpu["launch_us"];
     const double kilobytes = 12e-3 * times * static_cast<double>(frame.particles());
     const double upload = kilobytes / gpu["pcie_gbs"];
     add_total("launches", sum);
@@ -252,11 +290,18 @@ void run_model(const KernelsOptions& options) {
     add_total("upload of memory that is not pinned", kilobytes / gpu["upload_gbs"], "host's copy");
     add_total("frame", sum + gaps + upload);
     add_total("frame sent ahead", std::max(sum + gaps, upload));
+    if (options.packs) {
+        // The words are zero before; hashes come down beside the frame's counts.
+        const double zeros = times * static_cast<double>(packed_bytes) / (1e3 * gpu["memory_gbs"]);
+        add_total("packing", packing + static_cast<double>(launches_of_packing + 1) * gpu["launch_us"] + zeros);
+    }
     nlohmann::ordered_json summary;
     summary["gpu"] = options.gpu;
     summary["particles"] = times * static_cast<double>(frame.particles());
     summary["counted_particles"] = frame.particles();
     summary["counted_processors"] = processors;
+    summary["triangles"] = times * static_cast<double>(triangles);
+    if (options.packs) summary["packed_bytes"] = times * static_cast<double>(packed_bytes);
     summary["water"] = options.water;
     summary["field"] = options.field;
     summary["mode"] = options.mode;

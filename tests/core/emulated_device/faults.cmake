@@ -9,10 +9,10 @@ plant(index_off_by_one steps/place_vertices/place_vertices.cu
 
 # A brick's rows of cells are written before all warps have marked theirs.
 plant(missing_barrier codec/lattice/pack_bricks.cu
-  [=[        __syncthreads();
-        rows.write(]=]
-  [=[        if (!FAULTY(missing_barrier)) __syncthreads();
-        rows.write(]=])
+  [=[    __syncthreads();
+    rows.write(]=]
+  [=[    if (!FAULTY(missing_barrier)) __syncthreads();
+    rows.write(]=])
 
 # A kernel stops the frame while blocks of it have yet to begin.
 plant(early_stop steps/register_particles/sort_particles.cu
