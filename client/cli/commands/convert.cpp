@@ -80,8 +80,8 @@ void check_outputs(const ConvertOptions& options, const formats::Recording& reco
 void convert_recording(const ConvertOptions& options) {
     const formats::Recording recording = options.recording.open();
     auto frames = recording.frames(options.recording.from, options.recording.to);
-    if (options.share) options.share->keep(frames);
     check_outputs(options, recording, frames);
+    if (options.share) options.share->keep(frames);
     if (!formats::is_standard_stream(options.directory)) formats::make_directory(options.directory);
     for (const formats::RecordedFrame& frame : frames) {
         const auto path = options.path_of(frame);

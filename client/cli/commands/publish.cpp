@@ -6,7 +6,6 @@
 #include <limits>
 #include <memory>
 #include <system_error>
-#include <utility>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/examples.hpp"
@@ -53,18 +52,7 @@ void remove_publication(const std::filesystem::path& folder) {
     std::filesystem::remove(folder, ignored);
 }
 
-/// Where a share is published, until the command without --share takes it into the whole.
-void publish_share(PublishCommand command) {
-    if (!command.server.address.empty() || command.page || command.single_file || command.keep)
-        throw InvalidInput(
-            "--share publishes a part of frames that are all there: --server, --page, --single-file and --keep are of "
-            "the command that puts the parts together, which has no --share");
-    command.folder = command.to / share_folder(*command.share);
-    publish_source(command);
-}
-
 void publish(PublishCommand command) {
-    if (command.share) return publish_share(std::move(command));
     command.folder = command.to;
     if (!command.single_file) {
         if (command.page) pages::write_site(command.folder);
@@ -108,7 +96,6 @@ void add_files(CLI::App& app, PublishCommand& command) {
     }
     add_read_limits(app, command.limits);
     command.selection.add_range_to(app);
-    add_share_option(app, command.share);
     const OptionGroup group(app, sequence_heading);
     app.add_option("--every", command.every, "Frames whose number is a multiple of this")
         ->check(CLI::Range(std::uint64_t{1}, std::numeric_limits<std::uint64_t>::max()).description("POSITIVE"))

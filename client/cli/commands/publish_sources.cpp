@@ -1,11 +1,8 @@
 #include "cli/commands/publish_sources.hpp"
 
-#include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -19,7 +16,6 @@
 #include "formats/bytes/byte_cursor.hpp"
 #include "formats/recordings/brick_file.hpp"
 #include "formats/recordings/recording.hpp"
-#include "meniscus/client/publication.hpp"
 #include "meniscus/client/publication_writer.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/quoted.hpp"
@@ -28,24 +24,6 @@
 namespace meniscus::cli {
 namespace {
 
-/// A share that is published, in a folder of its own.
-struct ShareFolder {
-    Share share;
-    std::filesystem::path folder;
-    client::PublicationInfo info;
-};
-
-/// In the order of their frames.
-std::vector<ShareFolder> shares_in(const std::filesystem::path& folder) {
-    std::vector<ShareFolder> found;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        if (const auto share = share_of_folder(entry.path().filename().string());
-            share && client::is_publication(entry.path()))
-            found.push_back({*share, entry.path(), client::Publication(entry.path()).info()});
-    std::ranges::sort(found, {}, [](const ShareFolder& each) { return each.share.number; });
-    return found;
-}
-
 /// A writer of frames that are all there already, and its messages.
 class Publisher {
 public:
@@ -53,9 +31,7 @@ public:
               const client::SessionDescription& described, std::size_t frames)
         : command_(command),
           writer_(command.folder, settings, publish_options(command, described)),
-          bar_(frames, frames > 1 && !command.verbosity.quiet) {
-        if (!command.share) adopt_shares();
-    }
+          bar_(frames, frames > 1 && !command.verbosity.quiet) {}
 
     bool has(std::uint64_t index) {
         if (!writer_.has(0, index)) return false;
@@ -80,38 +56,6 @@ public:
     }
 
 private:
-    /// Takes all of them or none, so that no frame between two is left out for ever.
-    void adopt_shares() {
-        const std::vector<ShareFolder> shares = shares_in(command_.folder);
-        const auto is_taken = [&](const ShareFolder& share) {
-            return std::ranges::all_of(share.info.segments, [&](const client::PublishedSegment& segment) {
-                return writer_.has(segment.run_id, segment.last_frame);
-            });
-        };
-        // Else a run was killed that had taken them, and had begun to remove them.
-        if (!std::ranges::all_of(shares, is_taken)) {
-            require_all(shares);
-            for (const ShareFolder& share : shares) writer_.adopt(share.folder);
-        }
-        std::error_code ignored;
-        for (const ShareFolder& share : shares) std::filesystem::remove_all(share.folder, ignored);
-    }
-    void require_all(const std::vector<ShareFolder>& shares) const {
-        const std::uint64_t of = shares.front().share.of;
-        for (std::uint64_t number = 1; number <= of; ++number) {
-            const auto found = std::ranges::find_if(shares, [&](const ShareFolder& each) {
-                return each.share.number == number && each.share.of == of && !each.info.live;
-            });
-            if (found == shares.end())
-                throw InvalidInput(command_.folder.string() + ": share " + Share{number, of}.text() +
-                                   " is not done: publish it by --share " + std::to_string(number) + "/" +
-                                   std::to_string(of));
-        }
-        if (shares.size() != of)
-            throw InvalidInput(command_.folder.string() + ": has folders of shares of " + std::to_string(of) +
-                               " and of others: remove those that are of no use");
-    }
-
     const PublishCommand& command_;
     client::PublicationWriter writer_;
     ProgressBar bar_;
@@ -122,16 +66,12 @@ private:
 std::vector<NumberedFile> files_of(const PublishCommand& command) {
     FilePattern pattern(command.source);
     pattern.require_no_other_notation();
-    if (!pattern.has_number() && command.share)
-        throw InvalidInput("--share is a part of a sequence: it needs {} in SOURCE, which is " +
-                           quoted(command.source));
     if (!pattern.has_number()) return {{0, command.source}};
     std::vector<NumberedFile> files = command.selection.files(pattern);
     std::erase_if(files, [&](const NumberedFile& file) { return !command.is_wanted(file.number); });
     if (files.empty())
         throw InvalidInput(command.source + ": no number of its frames is a multiple of " +
                            std::to_string(command.every) + " (--every)");
-    if (command.share) command.share->keep(files);
     return files;
 }
 
@@ -192,7 +132,6 @@ bool is_form_given(const WatchFlags& form) {
 client::PublishOptions publish_options(const PublishCommand& command, const client::SessionDescription& described) {
     client::PublishOptions options{.description = command.description,
                                    .normals_by = command.form.options.normals_by,
-                                   .live = command.share.has_value(),  // until it is whole
                                    .keep_seconds = command.keep};
     if (options.description.name.empty()) options.description.name = described.name;
     if (options.description.length_unit.empty()) options.description.length_unit = described.length_unit;
@@ -256,7 +195,6 @@ void publish_recording(const PublishCommand& command) {
     for (const formats::RecordedFrame& frame : recording.frames())
         if (command.is_wanted(frame.index)) frames.push_back(frame);
     if (frames.empty()) throw InvalidInput(command.source + ": none of its frames is wanted (--start, --end, --every)");
-    if (command.share) command.share->keep(frames);
     Publisher publisher(command, recording.settings(), recording.description(), frames.size());
     const bool as_recorded = !is_form_given(command.form);
     std::optional<Encoder> encoder;

@@ -11,7 +11,6 @@
 #include "cli/options/verbosity.hpp"
 #include "cli/options/watch_flags.hpp"
 #include "cli/sequence/frame_selection.hpp"
-#include "cli/sequence/share.hpp"
 #include "formats/bytes/read_limits.hpp"
 #include "formats/particles/particle_formats.hpp"
 #include "meniscus/backend_options.hpp"
@@ -33,7 +32,6 @@ struct PublishCommand {
     SettingsOptions settings;
     BackendOptions backend;
     FrameSelection selection;
-    std::optional<Share> share;        ///< of the wanted frames; none: all
     std::uint64_t every = 1;           ///< frames whose number is a multiple of this
     std::optional<double> frame_rate;  ///< frames per second; none: as the source has them
     std::optional<double> keep;        ///< seconds of the newest frames; none: all stay
@@ -48,8 +46,7 @@ struct PublishCommand {
 /// described: what the source says of itself, where the command says nothing.
 client::PublishOptions publish_options(const PublishCommand& command, const client::SessionDescription& described);
 
-/// These publish all frames of the source that are wanted and not yet there, those of shares
-/// first. They throw InvalidInput, LimitExceeded,
+/// These publish all frames of the source that are wanted and not yet there. They throw InvalidInput, LimitExceeded,
 /// ServerError, or std::runtime_error where writing fails; what was published until then stays.
 void publish_particles(const PublishCommand& command);
 void publish_bricks(const PublishCommand& command);

@@ -25,6 +25,8 @@ std::vector<FrameFiles> frames_of(const ReconstructFiles& files) {
         throw InvalidInput("--start, --end, --step and --skip-missing need {} in IN, which is '" + files.in + "'");
     if (!sequence && files.share)
         throw InvalidInput("--share is a part of a sequence: it needs {} in IN, which is '" + files.in + "'");
+    if (files.share && !files.stats.empty())
+        throw InvalidInput("--stats is one file: all shares would write it; give --share or --stats");
     if (!sequence && files.frame_rate)
         throw InvalidInput("--frame-rate gives the frames of a sequence their times: it needs {} in IN, which is '" +
                            files.in + "'");

@@ -1,6 +1,7 @@
 #include "cli/sequence/frame_meshes.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,19 @@ std::string frame_name(const std::filesystem::path& path, std::uint64_t index) {
                             : "s from " + std::to_string(range.first) + " to " + std::to_string(range.last)));
 }
 
+/// The frames of a publication that grows are other ones for the next share, and of two runs a frame of one name each
+/// may be in two shares.
+void take_share(const client::Publication& publication, const Share& share, std::vector<std::uint64_t>& places) {
+    const client::PublicationInfo& info = publication.info();
+    if (info.live)
+        throw InvalidInput(publication.name() + ": --share is of frames that are all there, and more frames may come");
+    if (std::ranges::any_of(info.segments, [&](const client::PublishedSegment& segment) {
+            return segment.run_id != info.segments.front().run_id;
+        }))
+        throw InvalidInput(publication.name() + ": --share is of frames of one run, and it has several runs");
+    share.keep(places);
+}
+
 void for_each_published(const std::filesystem::path& path, const FrameRange& range, const TakeFrame& take) {
     client::Publication publication(path);
     std::uint64_t place = publication.info().left_frames;
@@ -31,7 +45,8 @@ void for_each_published(const std::filesystem::path& path, const FrameRange& ran
         if (segment.last_frame < range.first || segment.first_frame > range.last) place = end;
         for (; place < end; ++place) places.push_back(place);
     }
-    if (range.share) range.share->keep(places);
+    if (places.empty()) refuse_range(path, range);
+    if (range.share) take_share(publication, *range.share, places);
     bool any = range.share.has_value();
     for (const std::uint64_t each : places) {
         const client::ReceivedFrame frame = publication.frame(each);

@@ -17,8 +17,6 @@ namespace {
 
 /// More processes than any cluster starts, and few enough to multiply.
 constexpr std::uint64_t most_shares = 1'000'000'000;
-constexpr std::string_view folder_prefix = "share-";
-constexpr std::string_view folder_infix = "-of-";
 
 /// Where a scheduler says which of its processes this is.
 struct Variables {
@@ -26,6 +24,7 @@ struct Variables {
     const char* first;   ///< null: 0
     const char* step;    ///< null: 1
     const char* of;
+    bool says_nothing_alone = false;  ///< the number, where there is no count
 };
 
 // Tasks of jobs, which are started one by one.
@@ -38,7 +37,7 @@ constexpr std::array tasks{
 constexpr std::array processes{
     Variables{"OMPI_COMM_WORLD_RANK", nullptr, nullptr, "OMPI_COMM_WORLD_SIZE"},
     Variables{"PMI_RANK", nullptr, nullptr, "PMI_SIZE"},
-    Variables{"SLURM_PROCID", nullptr, nullptr, "SLURM_STEP_NUM_TASKS"},
+    Variables{"SLURM_PROCID", nullptr, nullptr, "SLURM_STEP_NUM_TASKS", true},
 };
 
 std::optional<std::uint64_t> whole_number(std::string_view text) {
@@ -64,26 +63,19 @@ std::optional<Share> find(const std::array<Variables, Count>& all, const Environ
     for (const Variables& each : all) {
         const auto number = number_in(environment, each.number);
         const auto of = number_in(environment, each.of);
+        if (number && !of && !each.says_nothing_alone)
+            throw InvalidInput("--share auto: " + std::string(each.number) + " is " + std::to_string(*number) +
+                               ", and " + each.of + ", which says of how many, is not there");
         if (!number || !of) continue;
         const std::uint64_t first = number_in(environment, each.first).value_or(0);
         const std::uint64_t step = number_in(environment, each.step).value_or(1);
-        if (*number < first || step == 0 || (*number - first) / step >= *of)
+        if (*number < first || step == 0 || (*number - first) % step != 0 || (*number - first) / step >= *of)
             throw InvalidInput("--share auto: " + std::string(each.number) + " is " + std::to_string(*number) +
                                ", which is not one of the " + std::to_string(*of) + " that " + each.of + " says" +
                                (first != 0 ? ", counted from " + std::to_string(first) : ""));
         return Share{(*number - first) / step + 1, *of};
     }
     return std::nullopt;
-}
-
-/// Of two numbers with a text between them.
-std::optional<Share> share_between(std::string_view text, std::string_view infix) {
-    const std::size_t middle = text.find(infix);
-    if (middle == std::string_view::npos) return std::nullopt;
-    const auto number = whole_number(text.substr(0, middle));
-    const auto of = whole_number(text.substr(middle + infix.size()));
-    if (!number || !of || *number < 1 || *number > *of || *of > most_shares) return std::nullopt;
-    return Share{*number, *of};
 }
 
 std::string named(const Variables& variables) {
@@ -117,20 +109,13 @@ std::uint64_t Share::begin(std::uint64_t frames) const {
 
 Share parse_share(const std::string& text, const Environment& environment) {
     if (text == "auto") return share_of_process(environment);
-    if (const auto share = share_between(text, "/")) return *share;
+    const std::size_t slash = text.find('/');
+    const auto number = whole_number(text.substr(0, slash));
+    const auto of = slash != std::string::npos ? whole_number(text.substr(slash + 1)) : std::nullopt;
+    if (number && of && *number >= 1 && *number <= *of && *of <= most_shares) return {*number, *of};
     throw InvalidInput("--share is " + quoted(text) +
                        ", but must be I/N, the Ith of N parts with I from 1 to N and N of at most " +
                        std::to_string(most_shares) + ", or auto");
-}
-
-std::string share_folder(const Share& share) {
-    return std::string(folder_prefix) + std::to_string(share.number) + std::string(folder_infix) +
-           std::to_string(share.of);
-}
-
-std::optional<Share> share_of_folder(const std::string& name) {
-    if (!name.starts_with(folder_prefix)) return std::nullopt;
-    return share_between(std::string_view(name).substr(folder_prefix.size()), folder_infix);
 }
 
 void add_share_option(CLI::App& command, std::optional<Share>& share) {

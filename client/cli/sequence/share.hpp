@@ -42,10 +42,6 @@ using Environment = std::function<const char*(const char* name)>;
 /// (Kubernetes), times the rank within it. Throws InvalidInput, naming what was looked for.
 Share parse_share(const std::string& text, const Environment& environment);
 
-/// The name of a folder for a share, and the share of a folder by its name.
-std::string share_folder(const Share& share);
-std::optional<Share> share_of_folder(const std::string& name);
-
 /// The flag --share.
 void add_share_option(CLI::App& command, std::optional<Share>& share);
 

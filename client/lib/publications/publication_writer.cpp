@@ -85,26 +85,6 @@ public:
         remove_dropped(Clock::now() - files::readers_delay);
     }
 
-    void adopt(const std::filesystem::path& folder) {
-        flush();
-        const PublicationInfo more = Publication(folder).info();
-        require_same(more, info_.settings, folder);
-        if (more.live) throw InvalidInput(folder.string() + ": more frames may come there: let its publisher finish");
-        for (const PublishedSegment& segment : more.segments) {
-            if (is_listed(segment.file())) continue;
-            if (has(segment.run_id, segment.first_frame))
-                throw InvalidInput(folder.string() + ": its frame " + std::to_string(segment.first_frame) +
-                                   " is one of those that are published in " + folder_.string());
-            take_file(folder, segment);
-            info_.frames += segment.frames;
-            info_.bytes += segment.bytes;
-            info_.segments.push_back(segment);
-        }
-        for (const FrameAttribute& attribute : more.attributes) take_attribute(attribute);
-        drop_old();
-        write_manifest();
-    }
-
     void finish() {
         flush();
         info_.live = false;
@@ -122,47 +102,30 @@ private:
 
     void go_on(const std::optional<Settings>& settings) {
         info_ = Publication(folder_).info();
-        require_same(info_, settings, folder_);
-        info_.live = options_.live;
-    }
-
-    void require_same(const PublicationInfo& there, const std::optional<Settings>& settings,
-                      const std::filesystem::path& folder) const {
-        if (there.settings != settings)
-            throw InvalidInput(folder.string() +
+        if (info_.settings != settings)
+            throw InvalidInput(folder_.string() +
                                ": the publication there has other settings: take another folder, "
                                "or the settings that its " +
                                std::string(files::manifest_name) + " names");
-        if (there.normals_by != options_.normals_by)
-            throw InvalidInput(folder.string() + ": the publication there has normals by the " +
-                               std::string(name_of(there.normals_by)) + ": take another folder, or --normals-by " +
-                               std::string(name_of(there.normals_by)));
-    }
-
-    /// By a link, or, where there are none, a copy: the file stays there until the manifest names it here.
-    void take_file(const std::filesystem::path& folder, const PublishedSegment& segment) const {
-        const std::filesystem::path from = folder / segment.file();
-        std::error_code error;
-        std::filesystem::create_hard_link(from, folder_ / segment.file(), error);
-        if (error) write_durably(folder_ / segment.file(), read_whole(from, segment.bytes));
+        if (info_.normals_by != options_.normals_by)
+            throw InvalidInput(folder_.string() + ": the publication there has normals by the " +
+                               std::string(name_of(info_.normals_by)) + ": take another folder, or --normals-by " +
+                               std::string(name_of(info_.normals_by)));
+        info_.live = options_.live;
     }
 
     void take_attributes(const ReceivedFrame& frame) {
         for (const CodedAttribute& coded : frame.coded_attributes) {
             const auto announced = std::ranges::find(frame.attributes, coded.name, &FrameAttribute::name);
             if (announced == frame.attributes.end()) continue;
-            take_attribute(*announced);
+            const auto known = std::ranges::find(info_.attributes, coded.name, &FrameAttribute::name);
+            if (known == info_.attributes.end())
+                info_.attributes.push_back(*announced);
+            else if (announced->range && known->range)
+                widen(*known->range, *announced->range);
+            else if (announced->range)
+                known->range = announced->range;
         }
-    }
-
-    void take_attribute(const FrameAttribute& attribute) {
-        const auto known = std::ranges::find(info_.attributes, attribute.name, &FrameAttribute::name);
-        if (known == info_.attributes.end())
-            info_.attributes.push_back(attribute);
-        else if (attribute.range && known->range)
-            widen(*known->range, *attribute.range);
-        else if (attribute.range)
-            known->range = attribute.range;
     }
 
     /// Leaves segments out of the manifest that are older than the seconds that are kept.
@@ -229,10 +192,6 @@ bool PublicationWriter::has(std::uint64_t run_id, std::uint64_t index) const noe
 
 void PublicationWriter::add(const ReceivedFrame& frame, double seconds) {
     impl_->add(frame, seconds);
-}
-
-void PublicationWriter::adopt(const std::filesystem::path& folder) {
-    impl_->adopt(folder);
 }
 
 bool PublicationWriter::is_open() const noexcept {

@@ -63,59 +63,29 @@ TEST_F(Publish, GoesOnWithFramesThatAreNotThereYet) {
     expect_refused(publish("site", {"-c", "1"}), {"other settings"});
 }
 
-TEST_F(Publish, InSharesHasTheMeshesOfOneProcess) {
-    expect_done(publish("one"));
-    expect_done({"convert", path("one"), "-o", path("one_m")});
-    for (const char* const share : {"3/3", "1/3"}) expect_done(publish("shared", {"--share", share}));
-    EXPECT_FALSE(std::filesystem::exists(path("shared/manifest.json")));
-    expect_refused(publish("shared"), {"share 2 of 3 is not done", "--share 2/3"});
-    expect_done(publish("shared", {"--share", "2/3"}));
-    const ProcessResult result = run_meniscus(publish("shared"));
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_NE(result.err.find("6 were there before"), std::string::npos) << "nothing is made anew: " << result.err;
-    EXPECT_FALSE(std::filesystem::exists(path("shared/share-1-of-3")));
-    EXPECT_EQ(manifest("shared")["frames"], "6");
-    EXPECT_EQ(manifest("shared")["live"], false);
+TEST_F(Publish, IsConvertedInShares) {
+    expect_done(publish("site"));
+    expect_done({"convert", path("site"), "-o", path("whole")});
     for (const char* const share : {"1/2", "2/2"})
-        expect_done({"convert", path("shared"), "-o", path("shared_m"), "--share", share});
-    for (int i = 10; i < 10 + frame_count; ++i) EXPECT_TRUE(converted("shared_m", i) == converted("one_m", i)) << i;
+        expect_done({"convert", path("site"), "-o", path("shared"), "--share", share});
+    for (int i = 10; i < 10 + frame_count; ++i) EXPECT_TRUE(converted("shared", i) == converted("whole", i)) << i;
+    const std::vector<std::string> none{"convert", path("site"), "-o", path("none"), "--share", "1/2", "--from", "90"};
+    expect_refused(none, {"no mesh of a frame", "90"});
 }
 
-TEST_F(Publish, TakesSharesOnceWhereverItIsKilled) {
-    for (const char* const share : {"1/2", "2/2"}) expect_done(publish("shared", {"--share", share}));
-    std::filesystem::copy(path("shared"), path("before"), std::filesystem::copy_options::recursive);
-    expect_done(publish("shared"));
-    const nlohmann::json whole = manifest("shared");
-    // Before any folder of a share was removed, in the middle of it, and before the last one was.
-    for (const std::vector<std::string>& left :
-         {std::vector<std::string>{"share-1-of-2", "share-2-of-2"}, {"share-2-of-2"}, {"share-1-of-2"}}) {
-        for (const std::string& folder : left)
-            std::filesystem::copy(path("before/" + folder), path("shared/" + folder),
-                                  std::filesystem::copy_options::recursive);
-        expect_done(publish("shared"));
-        EXPECT_EQ(manifest("shared"), whole);
-        EXPECT_FALSE(std::filesystem::exists(path("shared/" + left.front())));
-    }
-    expect_done({"check", path("shared")});
-}
-
-TEST_F(Publish, AShareThatWasKilledIsNotTakenForWhole) {
-    expect_done(publish("shared", {"--share", "1/2"}));
-    expect_done(publish("shared", {"--share", "2/2"}));
-    nlohmann::json killed = manifest("shared/share-1-of-2");
-    killed["live"] = true;
-    formats::write_file(path("shared/share-1-of-2/manifest.json"), killed.dump());
-    expect_refused(publish("shared"), {"share 1 of 2 is not done"});
-    expect_done(publish("shared", {"--share", "1/2"}));
-    expect_done(publish("shared"));
-    EXPECT_EQ(manifest("shared")["frames"], "6");
-}
-
-TEST_F(Publish, RefusesASharesFlagsThatAreOfTheWhole) {
-    expect_refused(publish("site", {"--share", "1/2", "--page"}), {"--share", "--page"});
-    expect_refused(publish("site.html", {"--share", "1/2", "--single-file"}), {"--share", "--single-file"});
-    expect_refused(publish("site", {"--share", "1/2", "--keep", "5"}), {"--share", "--keep"});
-    expect_refused({"publish", in_, "--to", path("site"), "-r", "0.5", "--share", "1/2"}, {"--share", "{}"});
+TEST_F(Publish, IsNotSharedOutWhileItGrowsOrWhereFramesOfSeveralRunsHaveOneName) {
+    expect_done(publish("site", {"--end", "12"}));
+    expect_done(publish("site"));
+    nlohmann::json changed = manifest("site");
+    const auto convert = [&](const nlohmann::json& text) {
+        formats::write_file(path("site/manifest.json"), text.dump());
+        return std::vector<std::string>{"convert", path("site"), "-o", path("shared"), "--share", "1/2"};
+    };
+    changed["live"] = true;
+    expect_refused(convert(changed), {"--share", "more frames may come"});
+    changed["live"] = false;
+    changed["segments"][1]["run_id"] = "7";
+    expect_refused(convert(changed), {"--share", "several runs"});
 }
 
 TEST_F(Publish, TakesTheFramesThatAreWantedInTheFormThatIsWanted) {

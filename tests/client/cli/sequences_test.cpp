@@ -284,6 +284,7 @@ TEST_F(Sequences, AreListedOnceAllSharesAreDone) {
     std::vector<std::string> arguments{"reconstruct", path("f_{}.xyz"), "-o",          path("l_{}.vtp"), "-r", "0.5",
                                        "-q",          "--pvd",          path("l.pvd"), "--share",        "1/1"};
     expect_refused(arguments, {"--pvd", "--skip-existing", "--share"});
+    expect_refused(sequence("m", {"--share", "1/2", "--stats", path("s.json")}), {"--share", "--stats"});
     expect_refused({"reconstruct", in_, "-o", out_, "-r", "0.5", "--share", "1/2"}, {"--share", "{}"});
     expect_refused({"convert", in_, "-o", path("one.npz"), "--share", "1/2"}, {"--share", "{}"});
 }

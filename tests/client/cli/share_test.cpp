@@ -93,6 +93,12 @@ TEST(Share, IsRefusedWhereTheVariablesContradictThemselves) {
     expect_named({}, "JOB_COMPLETIONS");
     expect_named({{"JOB_COMPLETION_INDEX", "3"}}, "JOB_COMPLETIONS");
     expect_named({{"JOB_COMPLETION_INDEX", "3"}, {"JOB_COMPLETIONS", "3"}}, "JOB_COMPLETION_INDEX is 3");
+    expect_named({{"JOB_COMPLETION_INDEX", "1"}, {"PMI_RANK", "0"}, {"PMI_SIZE", "1"}}, "JOB_COMPLETIONS");
+    expect_named({{"SLURM_ARRAY_TASK_ID", "4"},
+                  {"SLURM_ARRAY_TASK_MIN", "1"},
+                  {"SLURM_ARRAY_TASK_STEP", "2"},
+                  {"SLURM_ARRAY_TASK_COUNT", "3"}},
+                 "SLURM_ARRAY_TASK_ID is 4");
     expect_named({{"PMI_RANK", "-1"}, {"PMI_SIZE", "3"}}, "PMI_RANK is '-1'");
     expect_named({{"PMI_RANK", "0"}, {"PMI_SIZE", "0"}}, "PMI_SIZE");
     expect_named({{"PMI_RANK", "0"}, {"PMI_SIZE", "99999999999"}}, "PMI_SIZE");

@@ -43,9 +43,6 @@ public:
 
     /// Adds a frame that is shown for `seconds`. Throws std::runtime_error, naming the file, if writing fails.
     void add(const ReceivedFrame& frame, double seconds);
-    /// Takes the segments of a publication of later frames behind those that are here; its folder stays. Throws
-    /// InvalidInput if it has other settings, other normals or frames that are here, or is not finished.
-    void adopt(const std::filesystem::path& folder);
     /// Whether frames wait for their segment to end.
     bool is_open() const noexcept;
     /// Ends the open segment, if there is one, and names it in the manifest. Throws as add() does.
