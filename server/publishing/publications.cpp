@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <exception>
 #include <iterator>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "files/publication_window.hpp"
 #include "meniscus/seconds.hpp"
 #include "process/call_log.hpp"
 #include "process/log.hpp"
@@ -29,6 +31,9 @@ public:
           id_(std::move(identity.id)),
           turn_(publication_->begin(identity.kind.description)) {}
 
+    /// Also of a session that could not be made.
+    ~SessionPublication() override { end(); }
+
     Codec codec() const noexcept override { return Codec::lattice_entropy; }
     const char* what() const noexcept override { return "publication"; }
     void reconstructed(const InputFrame& /*frame*/) noexcept override {}
@@ -42,7 +47,10 @@ public:
                             "the frame is not published, and others may not be: {}", error.what());
         }
     }
-    void ended() noexcept override {
+    void ended() noexcept override { end(); }
+
+private:
+    void end() noexcept {
         try {
             publication_->end(turn_, Publication::Clock::now());
         } catch (const std::exception& error) {
@@ -50,7 +58,6 @@ public:
         }
     }
 
-private:
     Publications& all_;
     const std::shared_ptr<Publication> publication_;
     const std::string id_;
@@ -74,11 +81,14 @@ Publications::Publications(const PublishingOptions& options, std::size_t most_en
 std::shared_ptr<SessionObserver> Publications::observe(const SessionIdentity& identity, const Settings& settings) {
     call_log.write({.session = identity.id}, "published under /publications/{}/", identity.id);
     const std::lock_guard lock(mutex_);
-    auto& publication = entries_[identity.id];
-    if (!publication || publication->owner() != identity.owner || publication->settings() != settings)
+    const auto found = entries_.find(identity.id);
+    std::shared_ptr<Publication> publication = found != entries_.end() ? found->second : nullptr;
+    if (!publication || publication->owner() != identity.owner || publication->settings() != settings) {
         publication = std::make_shared<Publication>(
             identity.owner, settings,
             options_.keep.count() != 0 ? std::optional(seconds_of(options_.keep)) : std::nullopt, counters_);
+        entries_.insert_or_assign(identity.id, publication);
+    }
     return std::make_shared<SessionPublication>(*this, publication, identity);
 }
 
@@ -96,19 +106,31 @@ std::size_t Publications::count() const {
 void Publications::make_room() {
     if (options_.limit == 0 || counters_->held <= options_.limit) return;
     const std::lock_guard lock(mutex_);
-    std::vector<std::pair<std::size_t, Publication*>> sizes;
+    struct Held {
+        std::size_t bytes;
+        Publication::Clock::duration ended;  ///< -1: its session lives
+        Publication* publication;
+        auto goes_first() const { return std::tuple(bytes != 0, ended, bytes); }
+    };
+    const auto now = Publication::Clock::now();
+    std::vector<Held> held;
     std::size_t all = 0;
     for (const auto& [id, publication] : entries_) {
-        sizes.emplace_back(publication->bytes(), publication.get());
-        all += sizes.back().first;
+        held.push_back({publication->bytes(), publication->ended_for(now).value_or(Publication::Clock::duration(-1)),
+                        publication.get()});
+        all += held.back().bytes;
     }
     while (all > options_.limit) {
-        auto& [bytes, largest] = *std::ranges::max_element(sizes);
-        largest->drop_oldest();
-        all -= bytes;
-        bytes = largest->bytes();
-        all += bytes;
+        Held& from = *std::ranges::max_element(held, {}, &Held::goes_first);
+        from.publication->drop_oldest();
+        all -= from.bytes;
+        from.bytes = from.publication->bytes();
+        all += from.bytes;
     }
+}
+
+bool Publications::may_be_sent() const noexcept {
+    return options_.limit == 0 || counters_->held <= options_.limit + options_.limit / 4;
 }
 
 void Publications::tidy(Publication::Clock::time_point now) {
@@ -130,8 +152,10 @@ void Publications::forget_ended(Publication::Clock::time_point now) {
     std::vector<std::pair<Publication::Clock::duration, Entries::iterator>> ended;
     for (auto entry = entries_.begin(); entry != entries_.end();) {
         const auto time = entry->second->ended_for(now);
-        const bool is_over =
-            time && (options_.keep.count() != 0 ? *time >= options_.keep : entry->second->bytes() == 0);
+        // Readers look at the manifest once more, to see the end.
+        const bool is_over = time && (options_.keep.count() != 0 ? *time >= std::max<Publication::Clock::duration>(
+                                                                                options_.keep, files::readers_delay)
+                                                                 : entry->second->bytes() == 0);
         if (time && !is_over) ended.emplace_back(*time, entry);
         entry = is_over ? entries_.erase(entry) : std::next(entry);
     }

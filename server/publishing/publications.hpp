@@ -33,8 +33,11 @@ public:
     const PublishingCounters& counters() const noexcept { return *counters_; }
     const PublishingOptions& options() const noexcept { return options_; }
 
-    /// The largest publications lose their oldest frames until all fit.
+    /// Publications lose their oldest frames until all fit: first those that have ended, the longest ended before the
+    /// others, then the largest.
     void make_room();
+    /// Whether another segment may be sent. What readers still take of segments that have gone is in no other limit.
+    bool may_be_sent() const noexcept;
     /// Ends segments whose time is over, and forgets what nobody needs to find any more.
     void tidy(Publication::Clock::time_point now);
 

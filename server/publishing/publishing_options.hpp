@@ -27,13 +27,12 @@ struct PublishingOptions {
                .unit = "s",
                .range = {.most = 1e9},
                .argument = "SECONDS"});
-        visit(
-            "publish_limit", self.limit,
-            {.help =
-                 "Bytes of memory for all publications, as 2G; 0: no limit. Beyond it the largest one loses its oldest "
-                 "frames",
-             .unit = "bytes",
-             .argument = "BYTES"});
+        visit("publish_limit", self.limit,
+              {.help = "Bytes of memory for all publications, as 2G; 0: no limit. Beyond it those of sessions that "
+                       "have ended "
+                       "lose their oldest frames, then the largest one",
+               .unit = "bytes",
+               .argument = "BYTES"});
     }
 };
 

@@ -284,6 +284,8 @@ void HttpConnection::answer_published() {
     auto headers = cross_origin_headers(origin);
     headers.insert(headers.end(), page.headers.begin(), page.headers.end());
     page.headers = std::move(headers);
+    // One that takes a file is not silent; beyond the number of streams it makes room as others do.
+    streams_ = page.memory != nullptr && observer_.may_stream();
     write(std::move(page), request.keep_alive());
 }
 

@@ -75,7 +75,11 @@ Page PublishedFiles::answer(const FileRequest& request) const {
                 fmt::format("the publication has no such file, or no longer: its segments are those of "
                             "/publications/{}/{}",
                             name.session, files::manifest_name));
-        return found(file, name.file == files::manifest_name, request);
+        const bool is_manifest = name.file == files::manifest_name;
+        if (!is_manifest && !publications_->may_be_sent())
+            return {.status = 503,
+                    .body = "Too much is being sent of segments that have left their publications: try again later.\n"};
+        return found(file, is_manifest, request);
     } catch (...) {
         return page_of(to_status(std::current_exception()));
     }

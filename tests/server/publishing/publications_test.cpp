@@ -53,6 +53,49 @@ TEST(Publications, StayWithinTheirMemoryByWhatTheLargestLose) {
     EXPECT_EQ(published.all.counters().left_out, large.left_frames());
 }
 
+TEST(Publications, OfEndedSessionsMakeRoomFirst) {
+    Published published;
+    std::vector<std::shared_ptr<SessionObserver>> sessions;
+    for (int i = 0; i < 3; ++i) sessions.push_back(published.all.observe(identity(i), settings()));
+    for (std::uint64_t frame = 0; frame < 3; ++frame)
+        for (const auto& session : sessions) session->encoded(large_frame(frame));
+    sessions[0]->ended();
+    sessions[1]->ended();
+    const auto frames = [&](int i) { return manifest_of(*published.all.find(id_of(i))).frames(); };
+    for (std::uint64_t frame = 3; frame < 6; ++frame) sessions[2]->encoded(large_frame(frame));
+    EXPECT_EQ(frames(0), 1U) << "that has ended first";
+    EXPECT_EQ(frames(1), 3U);
+    for (std::uint64_t frame = 6; frame < 9; ++frame) sessions[2]->encoded(large_frame(frame));
+    EXPECT_EQ(frames(0), 0U);
+    EXPECT_EQ(frames(1), 1U);
+    EXPECT_EQ(frames(2), 9U) << "the largest, whose session lives";
+}
+
+TEST(Publications, AreSentUntilReadersHoldTooMuchThatHasLeft) {
+    Published published;
+    const auto session = published.all.observe(identity(0), settings());
+    const auto publication = published.all.find(id_of(0));
+    std::vector<std::shared_ptr<const PublishedFile>> read;
+    for (std::uint64_t frame = 0; frame < 40; ++frame) {
+        session->encoded(large_frame(frame));
+        if (!published.all.may_be_sent()) continue;
+        const v1::Publication manifest = manifest_of(*publication);
+        read.push_back(publication->find(manifest.segments(manifest.segments_size() - 1).sha256() + ".segment"));
+    }
+    EXPECT_FALSE(published.all.may_be_sent());
+    EXPECT_LT(published.all.counters().held, 3 * limit);
+    read.clear();
+    EXPECT_TRUE(published.all.may_be_sent());
+}
+
+TEST(Publications, EndWithASessionThatCouldNotBeMade) {
+    Published published;
+    published.all.observe(identity(0), settings()).reset();
+    EXPECT_FALSE(manifest_of(*published.all.find(id_of(0))).live());
+    published.all.tidy(Clock::now() + std::chrono::minutes(2));
+    EXPECT_EQ(published.all.count(), 0U);
+}
+
 TEST(Publications, GoOnWithASessionOfTheSameOwnerAndSettingsAlone) {
     Published published;
     const auto publish = [&](const std::string& owner, const Settings& of) {
