@@ -1,6 +1,6 @@
 // The real programs, as processes of the test.
 import { spawn } from 'node:child_process';
-import { once } from 'node:events';
+import { once, setMaxListeners } from 'node:events';
 import { randomUUID } from 'node:crypto';
 
 const meniscusd = process.env.MENISCUSD;
@@ -26,6 +26,7 @@ export async function stopAll() {
 /** Resolves with the first match of what the process prints. */
 async function printed(child, pattern) {
   const guard = AbortSignal.timeout(60_000);
+  setMaxListeners(0, guard);
   for (;;) {
     const match = pattern.exec(child.output);
     if (match) return match;
