@@ -28,7 +28,7 @@ void widen(v1::MeshAttribute& known, const v1::MeshAttribute& by) {
     }
 }
 
-/// What the manifest says of it: nothing of how bricks carry it.
+/// The manifest has a form of its own: it leaves out the coding in bricks.
 v1::MeshAttribute without_coding(v1::MeshAttribute attribute) {
     attribute.clear_bits();
     attribute.clear_coded_minimum();

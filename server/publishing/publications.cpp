@@ -35,7 +35,7 @@ public:
     ~SessionPublication() override { end(); }
 
     Codec codec() const noexcept override { return Codec::lattice_entropy; }
-    const char* what() const noexcept override { return "publication"; }
+    const char* product() const noexcept override { return "publication"; }
     void reconstructed(const InputFrame& /*frame*/) noexcept override {}
     void encoded(std::shared_ptr<const EncodedFrame> frame) noexcept override {
         try {

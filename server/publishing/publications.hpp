@@ -38,7 +38,7 @@ public:
     void make_room();
     /// Whether another segment may be sent. What readers still take of segments that have gone is in no other limit.
     bool may_be_sent() const noexcept;
-    /// Ends segments whose time is over, and forgets what nobody needs to find any more.
+    /// Ends segments whose time is over, and forgets publications whose readers have had their time.
     void tidy(Publication::Clock::time_point now);
 
 private:

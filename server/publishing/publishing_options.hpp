@@ -29,8 +29,7 @@ struct PublishingOptions {
                .argument = "SECONDS"});
         visit("publish_limit", self.limit,
               {.help = "Bytes of memory for all publications, as 2G; 0: no limit. Beyond it those of sessions that "
-                       "have ended "
-                       "lose their oldest frames, then the largest one",
+                       "have ended lose their oldest frames, then the largest one",
                .unit = "bytes",
                .argument = "BYTES"});
     }

@@ -75,11 +75,7 @@ Page PublishedFiles::answer(const FileRequest& request) const {
                 fmt::format("the publication has no such file, or no longer: its segments are those of "
                             "/publications/{}/{}",
                             name.session, files::manifest_name));
-        const bool is_manifest = name.file == files::manifest_name;
-        if (!is_manifest && !publications_->may_be_sent())
-            return {.status = 503,
-                    .body = "Too much is being sent of segments that have left their publications: try again later.\n"};
-        return found(file, is_manifest, request);
+        return found(file, name.file == files::manifest_name, request);
     } catch (...) {
         return page_of(to_status(std::current_exception()));
     }
@@ -115,6 +111,9 @@ Page PublishedFiles::found(const std::shared_ptr<const PublishedFile>& file, boo
         page.body = fmt::format("The range is not in the file, which has {} bytes.\n", file->bytes.size());
         return page;
     }
+    if (!is_manifest && !request.whole && !publications_->may_be_sent())
+        return {.status = 503,
+                .body = "Slow readers hold too much of segments that have left their publications: try again later.\n"};
     if (!request.whole) file->counters->sent += bytes.size();
     page.lasting_body = bytes;
     page.memory = file;

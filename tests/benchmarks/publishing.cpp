@@ -33,10 +33,10 @@ struct PublishingOptions {
 };
 
 constexpr double radius = 0.025;
-/// Than frames come that follow each other at once.
+/// The pace of the frames, over the time of frames that follow each other at once.
 constexpr int times_slower = 3;
 
-/// Who takes a session's meshes, all in the same format: entropy codec, normals of 8 bits.
+/// The readers of a session's meshes. All have the same format: entropy codec, normals of 8 bits.
 struct Readers {
     const char* name;
     bool published;

@@ -111,7 +111,7 @@ __device__ void write_block(const LatticeOnDevice& mesh, const PackedForm& form,
     });
 }
 
-/// What a brick has once.
+/// Writes the fields that a brick has once: header, cells, its only level.
 __device__ void write_begin(const LatticeOnDevice& mesh, const PackedForm& form, const KeptBrick& brick,
                             const PackedCounts& counts, const PackedPlaces& fields, CellRows& rows, std::byte* out) {
     rows.row[threadIdx.x] = 0;

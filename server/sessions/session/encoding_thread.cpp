@@ -264,7 +264,7 @@ void EncodingThread::encode_for(SessionObserver& observer) {
         throw;
     } catch (const std::exception& error) {
         log_error({.session = context_.identity.id, .frame = newest_->index}, "not encoded for its {}: {}",
-                  observer.what(), error.what());
+                  observer.product(), error.what());
         return;
     }
     observer.encoded(std::move(frame));

@@ -18,8 +18,8 @@ public:
     static constexpr int normal_bits = 8;
 
     virtual ~SessionObserver() = default;
-    /// What it makes, for the log.
-    virtual const char* what() const noexcept { return "recording"; }
+    /// The name of its product, for the log.
+    virtual const char* product() const noexcept = 0;
     /// The codec of those meshes, where the session can encode it; otherwise it is Draco.
     virtual Codec codec() const noexcept { return Codec::draco; }
     /// The bits of all attributes in those meshes; see AttributeWish.

@@ -163,7 +163,7 @@ void add_kernel(Row& row, const Counted& counted, double times, Compiled& compil
     row["model_us"] = price.total();
 }
 
-/// What a session on a GPU does for the lattice codecs beside reconstructing, without attributes.
+/// A session's kernels for the lattice codecs, beside those that reconstruct; attributes have others.
 bool is_of_packing(const std::string& kernel) {
     constexpr std::array kernels{"keep_bricks", "require_room_for_lattice", "write_bricks", "sum_words"};
     return std::ranges::find(kernels, kernel) != kernels.end();
