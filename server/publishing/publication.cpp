@@ -52,7 +52,7 @@ std::uint64_t Publication::begin(const v1::SessionDescription& description) {
     const std::lock_guard lock(mutex_);
     *manifest_.mutable_description() = description;
     manifest_.set_live(true);
-    manifest_file_.reset();
+    change_manifest();
     ended_at_.reset();
     return ++turn_;
 }
@@ -99,6 +99,7 @@ void Publication::append(const EncodedFrame& frame, Clock::time_point now) {
     open_seconds_ +=
         last_at_ ? std::min(seconds_of(now - *last_at_), seconds_of(segment_time)) : files::published_frame_seconds;
     last_at_ = now;
+    if (frame.attributes.empty()) return;
     const std::lock_guard lock(mutex_);
     take_attributes(frame);
 }
@@ -113,7 +114,7 @@ void Publication::end_segment(Clock::time_point now) {
     const std::lock_guard lock(mutex_);
     bytes_ += file->bytes.size();
     segments_.push_back({.entry = std::move(built.entry), .file = std::move(file)});
-    manifest_file_.reset();
+    change_manifest();
     if (!keep_seconds_) return;
     const auto listed = std::ranges::subrange(std::ranges::find_if(segments_, &Segment::is_listed), segments_.end());
     const std::size_t old =
@@ -130,7 +131,7 @@ void Publication::end(std::uint64_t turn, Clock::time_point now) {
     if (ended_at_) return;
     ended_at_ = now;
     manifest_.set_live(false);
-    manifest_file_.reset();
+    change_manifest();
 }
 
 void Publication::tidy(Clock::time_point now) {
@@ -168,11 +169,8 @@ void Publication::drop_oldest() {
 }
 
 std::shared_ptr<const PublishedFile> Publication::find(std::string_view name) const {
+    if (name == files::manifest_name) return manifest_file();
     const std::lock_guard lock(mutex_);
-    if (name == files::manifest_name) {
-        if (!manifest_file_) manifest_file_ = made_manifest();
-        return manifest_file_;
-    }
     if (!name.ends_with(files::segment_extension)) return nullptr;
     name.remove_suffix(files::segment_extension.size());
     const auto found =
@@ -180,7 +178,25 @@ std::shared_ptr<const PublishedFile> Publication::find(std::string_view name) co
     return found != segments_.end() ? found->file : nullptr;
 }
 
-std::shared_ptr<const PublishedFile> Publication::made_manifest() const {
+std::shared_ptr<const PublishedFile> Publication::manifest_file() const {
+    v1::Publication wire;
+    std::uint64_t changes = 0;
+    {
+        const std::lock_guard lock(mutex_);
+        if (manifest_file_) return manifest_file_;
+        wire = whole_manifest();
+        changes = changes_;
+    }
+    // Without the lock, which every frame takes: a long window is many lines.
+    std::string text = files::manifest_json(std::move(wire));
+    std::string sha256 = sha256_of(text);
+    auto file = std::make_shared<const PublishedFile>(std::move(text), std::move(sha256), counters_);
+    const std::lock_guard lock(mutex_);
+    if (changes == changes_) manifest_file_ = file;
+    return file;
+}
+
+v1::Publication Publication::whole_manifest() const {
     v1::Publication wire = manifest_;
     std::uint64_t frames = 0;
     std::uint64_t bytes = 0;
@@ -192,15 +208,18 @@ std::shared_ptr<const PublishedFile> Publication::made_manifest() const {
     }
     wire.set_frames(frames);
     wire.set_bytes(bytes);
-    std::string text = files::manifest_json(std::move(wire));
-    std::string sha256 = sha256_of(text);
-    return std::make_shared<const PublishedFile>(std::move(text), std::move(sha256), counters_);
+    return wire;
+}
+
+void Publication::change_manifest() noexcept {
+    ++changes_;
+    manifest_file_.reset();
 }
 
 void Publication::leave(Segment& segment, Clock::time_point now) {
     segment.left_at = now;
     manifest_.set_left_frames(manifest_.left_frames() + segment.entry.frames());
-    manifest_file_.reset();
+    change_manifest();
 }
 
 void Publication::take_attributes(const EncodedFrame& frame) {

@@ -101,9 +101,14 @@ private:
     void append(const EncodedFrame& frame, Clock::time_point now);
     void end_segment(Clock::time_point now);
 
+    std::shared_ptr<const PublishedFile> manifest_file() const;
+
     // With mutex_ held.
 
-    std::shared_ptr<const PublishedFile> made_manifest() const;
+    /// The manifest with its segments.
+    v1::Publication whole_manifest() const;
+    /// Its file is to be made anew.
+    void change_manifest() noexcept;
     /// The manifest.
     void leave(Segment& segment, Clock::time_point now);
     void take_attributes(const EncodedFrame& frame);
@@ -129,6 +134,7 @@ private:
     std::deque<Segment> segments_;  ///< those first that have left the manifest
     std::size_t bytes_ = 0;         ///< of them
     std::optional<Clock::time_point> ended_at_;
+    std::uint64_t changes_ = 0;                                   ///< of the manifest
     mutable std::shared_ptr<const PublishedFile> manifest_file_;  ///< null: it is to be made anew
 };
 

@@ -31,7 +31,6 @@ public:
 
     std::size_t count() const;
     const PublishingCounters& counters() const noexcept { return *counters_; }
-    const PublishingOptions& options() const noexcept { return options_; }
 
     /// Publications lose their oldest frames until all fit: first those that have ended, the longest ended before the
     /// others, then the largest.

@@ -24,6 +24,7 @@ public:
     SessionRecording(RecordingWriter& writer, std::string session_id, const Settings& settings, std::string owner = {},
                      v1::SessionDescription description = {});
 
+    const char* product() const noexcept override { return "recording"; }
     Codec codec() const noexcept override { return writer_.codec(); }
     int attribute_bits() const noexcept override { return writer_.attribute_bits(); }
     void reconstructed(const InputFrame& frame) noexcept override;

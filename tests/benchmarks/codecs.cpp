@@ -17,8 +17,8 @@
 #include "meniscus/mesh_hash.hpp"
 #include "meniscus/mesh_normals.hpp"
 #include "meniscus/reconstructor.hpp"
+#include "processor_time.hpp"
 #include "report.hpp"
-#include "thread_time.hpp"
 #include "warm_runs.hpp"
 
 namespace meniscus::benchmarks {

@@ -117,8 +117,7 @@ void add_delivery(CLI::App& app) {
     auto options = std::make_shared<DeliveryOptions>();
     CLI::App& command = *app.add_subcommand(
         "delivery", "Time of a frame from a simulator, through meniscusd, to a watcher's last byte, for each codec");
-    command.add_option("--meniscusd", options->program, "The program; looked for in PATH if it is a name alone")
-        ->capture_default_str();
+    add_meniscusd_option(command, options->program);
     command.add_option("--particles", options->particles, "Of a frame of splashing water")
         ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 32U))
         ->capture_default_str();

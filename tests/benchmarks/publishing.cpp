@@ -153,8 +153,7 @@ void add_publishing(CLI::App& app) {
     auto options = std::make_shared<PublishingOptions>();
     CLI::App& command = *app.add_subcommand(
         "publishing", "Processor time that meniscusd adds to publish a session, against that of one watcher");
-    command.add_option("--meniscusd", options->program, "The program; looked for in PATH if it is a name alone")
-        ->capture_default_str();
+    add_meniscusd_option(command, options->program);
     command.add_option("--particles", options->particles, "Of a frame of splashing water")->capture_default_str();
     command.add_option("--cell-size", options->cell_size, "In particle radii")->capture_default_str();
     command.add_option("--frames", options->frames, "Of a run, after as many that do not count")

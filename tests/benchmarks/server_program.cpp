@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <csignal>
 #include <cstring>
@@ -13,16 +14,11 @@
 #include <thread>
 
 #include "meniscus/client/client.hpp"
+#include "processor_time.hpp"
 
 namespace meniscus::benchmarks {
 
 namespace {
-
-double seconds_of(clockid_t clock) {
-    timespec time{};
-    if (::clock_gettime(clock, &time) != 0) throw std::runtime_error("no processor time to be had of a process");
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 pid_t start(std::vector<std::string> command) {
     std::vector<char*> argv;
@@ -67,11 +63,16 @@ ServerProgram::~ServerProgram() {
 double ServerProgram::processor_seconds() const {
     clockid_t clock{};
     if (::clock_getcpuclockid(pid_, &clock) != 0) throw std::runtime_error("meniscusd has ended");
-    return seconds_of(clock);
+    return clock_seconds(clock);
+}
+
+void add_meniscusd_option(CLI::App& command, std::string& program) {
+    command.add_option("--meniscusd", program, "The program; looked for in PATH if it is a name alone")
+        ->capture_default_str();
 }
 
 double processor_seconds() {
-    return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+    return clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
 }
 
 }  // namespace meniscus::benchmarks

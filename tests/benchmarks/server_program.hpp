@@ -6,6 +6,10 @@
 #include <string>
 #include <vector>
 
+namespace CLI {
+class App;
+}
+
 namespace meniscus::benchmarks {
 
 class ServerProgram {
@@ -24,6 +28,9 @@ private:
     std::string address_;
     pid_t pid_ = -1;
 };
+
+/// The flag that names it.
+void add_meniscusd_option(CLI::App& command, std::string& program);
 
 /// Processor time of all threads of this process so far, seconds.
 double processor_seconds();

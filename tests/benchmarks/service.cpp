@@ -162,8 +162,7 @@ void run_service(const ServiceOptions& options) {
 void add_service(CLI::App& app) {
     auto options = std::make_shared<ServiceOptions>();
     CLI::App& command = *app.add_subcommand("service", "Processor time that meniscusd adds to reconstruct and encode");
-    command.add_option("--meniscusd", options->program, "The program; looked for in PATH if it is a name alone")
-        ->capture_default_str();
+    add_meniscusd_option(command, options->program);
     command.add_option("--particles", options->particles, "Of a frame of splashing water")->capture_default_str();
     command.add_option("--frame", options->frame, "A particle file in place of generated water");
     command.add_option("--particle-radius", options->particle_radius, "World units")->capture_default_str();

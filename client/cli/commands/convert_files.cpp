@@ -32,8 +32,7 @@ std::vector<FileToConvert> files_of(const FileConversion& conversion) {
     if (in.has_number() != out.has_number())
         throw InvalidInput("IN '" + conversion.in + "' and OUT '" + conversion.out + "' must both have {} or both not");
     if (!in.has_number()) {
-        if (conversion.share)
-            throw InvalidInput("--share is a part of a sequence: it needs {} in IN, which is '" + conversion.in + "'");
+        refuse_share_of_one(conversion.share, conversion.in);
         if (conversion.selection.is_given())
             throw InvalidInput("--start, --end, --step and --skip-missing need {} in IN, which is '" + conversion.in +
                                "'");

@@ -23,8 +23,7 @@ std::vector<FrameFiles> frames_of(const ReconstructFiles& files) {
     in.require_no_other_notation();
     if (!sequence && files.selection.is_given())
         throw InvalidInput("--start, --end, --step and --skip-missing need {} in IN, which is '" + files.in + "'");
-    if (!sequence && files.share)
-        throw InvalidInput("--share is a part of a sequence: it needs {} in IN, which is '" + files.in + "'");
+    if (!sequence) refuse_share_of_one(files.share, files.in);
     if (files.share && !files.stats.empty())
         throw InvalidInput("--stats is one file: all shares would write it; give --share or --stats");
     if (!sequence && files.frame_rate)

@@ -118,6 +118,10 @@ Share parse_share(const std::string& text, const Environment& environment) {
                        std::to_string(most_shares) + ", or auto");
 }
 
+void refuse_share_of_one(const std::optional<Share>& share, const std::string& in) {
+    if (share) throw InvalidInput("--share is a part of a sequence: it needs {} in IN, which is '" + in + "'");
+}
+
 void add_share_option(CLI::App& command, std::optional<Share>& share) {
     const OptionGroup group(command, sequence_heading);
     command

@@ -42,6 +42,9 @@ using Environment = std::function<const char*(const char* name)>;
 /// (Kubernetes), times the rank within it. Throws InvalidInput, naming what was looked for.
 Share parse_share(const std::string& text, const Environment& environment);
 
+/// Throws InvalidInput for a share of one file. in: its name, which has no {}.
+void refuse_share_of_one(const std::optional<Share>& share, const std::string& in);
+
 /// The flag --share.
 void add_share_option(CLI::App& command, std::optional<Share>& share);
 

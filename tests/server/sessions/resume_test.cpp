@@ -116,6 +116,7 @@ TEST_F(Resume, ShowsTheFramesOfAnotherRunWhateverTheirIndices) {
 
 TEST(ResumeObserved, ShowsARecordingEachFrameOnce) {
     struct Recorder final : SessionObserver {
+        const char* product() const noexcept override { return "test"; }
         void reconstructed(const InputFrame& frame) noexcept override { particles.push_back(frame.index); }
         void encoded(std::shared_ptr<const EncodedFrame> frame) noexcept override { meshes.push_back(frame->index); }
         std::vector<std::uint64_t> particles;

@@ -116,6 +116,7 @@ TEST_F(SessionParticles, OfAResumedRunAreShownOnce) {
 
 /// Waits in the midst of showing a frame's particles.
 struct WaitingObserver : SessionObserver {
+    const char* product() const noexcept override { return "test"; }
     void reconstructed(const InputFrame& /*frame*/) noexcept override {
         showing.release();
         in_time = go_on.try_acquire_for(std::chrono::seconds(20));

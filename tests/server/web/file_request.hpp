@@ -1,6 +1,8 @@
 // Requests for the HTTP port's files, and what their answers say.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -36,6 +38,24 @@ inline std::string value_of(const HttpAnswer& answer, const std::string& name) {
     if (at == std::string::npos) return {};
     const std::size_t first = at + name.size() + 4;
     return answer.header.substr(first, answer.header.find("\r\n", first) - first);
+}
+
+/// A request that is refused, with words in its answer.
+struct RefusedRequest {
+    std::string target;
+    std::string method;
+    Headers headers;
+    int status;
+    std::string words;
+};
+
+inline void expect_refused(const std::string& address, const std::vector<RefusedRequest>& requests) {
+    for (const RefusedRequest& each : requests) {
+        const HttpAnswer answer = ask(address, each.target, each.headers, each.method);
+        EXPECT_EQ(answer.status, each.status) << each.method << ' ' << each.target << ": " << answer.body;
+        EXPECT_NE(answer.body.find(each.words), std::string::npos) << answer.body;
+        EXPECT_EQ(value_of(answer, "Cache-Control"), "no-store") << each.target;
+    }
 }
 
 }  // namespace meniscus::server::test

@@ -166,38 +166,26 @@ TEST_F(PublishedFilesOnAServer, AreRefusedInWords) {
     const std::string unknown = client::new_session_id();
     const std::string unpublished = running.session();
     const std::string other_hash(64, 'a');
-    struct Case {
-        std::string target;
-        std::string method;
-        Headers headers;
-        int status;
-        std::string words;
-    };
-    const std::vector<Case> cases{
-        {target_of(unknown), "GET", {}, 404, unknown},
-        {target_of(unpublished), "GET", {}, 404, "not published"},
-        {target_of("no-id"), "GET", {}, 404, "hexadecimal"},
-        {"/publications/", "GET", {}, 404, "manifest.json"},
-        {"/publications/" + id, "GET", {}, 404, "manifest.json"},
-        {target_of(id, ""), "GET", {}, 404, "manifest.json"},
-        {target_of(id, other_hash + ".segment"), "GET", {}, 404, "no such file"},
-        {target_of(id, segment + "/"), "GET", {}, 404, ""},
-        {target_of(id, "manifest.json?token=secret"), "GET", {}, 400, "no parameters"},
-        {target_of(id, "../" + id + "/manifest.json"), "GET", {}, 400, "dots"},
-        {target_of(id, "%2e%2e/manifest.json"), "GET", {}, 400, "escapes"},
-        {target_of(id, "..\\manifest.json"), "GET", {}, 400, ""},
-        {target_of(id, "\xff\xfe"), "GET", {}, 404, ""},
-        {target_of(id), "POST", {{"Content-Length", "0"}}, 405, "GET and HEAD"},
-        {target_of(id), "GET", {{"Content-Length", "3"}}, 413, "body"},
-        {target_of(id), "GET", {{"Origin", "https://elsewhere.example"}}, 403, "elsewhere.example"},
-        {target_of(id), "GET", {{"Host", "elsewhere.example"}}, 421, "elsewhere.example"},
-    };
-    for (const Case& each : cases) {
-        const HttpAnswer answer = ask(http, each.target, each.headers, each.method);
-        EXPECT_EQ(answer.status, each.status) << each.method << ' ' << each.target << ": " << answer.body;
-        EXPECT_NE(answer.body.find(each.words), std::string::npos) << answer.body;
-        EXPECT_EQ(value_of(answer, "Cache-Control"), "no-store") << each.target;
-    }
+    expect_refused(http,
+                   {
+                       {target_of(unknown), "GET", {}, 404, unknown},
+                       {target_of(unpublished), "GET", {}, 404, "not published"},
+                       {target_of("no-id"), "GET", {}, 404, "hexadecimal"},
+                       {"/publications/", "GET", {}, 404, "manifest.json"},
+                       {"/publications/" + id, "GET", {}, 404, "manifest.json"},
+                       {target_of(id, ""), "GET", {}, 404, "manifest.json"},
+                       {target_of(id, other_hash + ".segment"), "GET", {}, 404, "no such file"},
+                       {target_of(id, segment + "/"), "GET", {}, 404, ""},
+                       {target_of(id, "manifest.json?token=secret"), "GET", {}, 400, "no parameters"},
+                       {target_of(id, "../" + id + "/manifest.json"), "GET", {}, 400, "dots"},
+                       {target_of(id, "%2e%2e/manifest.json"), "GET", {}, 400, "escapes"},
+                       {target_of(id, "..\\manifest.json"), "GET", {}, 400, ""},
+                       {target_of(id, "\xff\xfe"), "GET", {}, 404, ""},
+                       {target_of(id), "POST", {{"Content-Length", "0"}}, 405, "GET and HEAD"},
+                       {target_of(id), "GET", {{"Content-Length", "3"}}, 413, "body"},
+                       {target_of(id), "GET", {{"Origin", "https://elsewhere.example"}}, 403, "elsewhere.example"},
+                       {target_of(id), "GET", {{"Host", "elsewhere.example"}}, 421, "elsewhere.example"},
+                   });
 }
 
 TEST_F(PublishedFilesOnAServer, EndWithTheirSessionAndStay) {
