@@ -55,7 +55,7 @@ async function measureSeeks(browser, folder) {
   host.stop();
 }
 
-/** by: what publishes the session: a program beside the server, or the server itself. */
+/** by: the publisher of the session, a program beside the server or the server itself. */
 async function measureBehind(browser, by) {
   const { startPublisher, startServer, startSimulator, startWatcher, stopAll } = await import('./support/programs.mjs');
   const folder = mkdtempSync(join(tmpdir(), 'meniscus-web-'));

@@ -209,7 +209,7 @@ describe('a publication', { skip: missing }, () => {
     await second.kill();
     const { segments, live } = await look();
     assert.equal(live, true, 'its session waits for another simulator');
-    // What was listed stays listed, in its order.
+    // Listed segments stay listed, in their order.
     for (const { segments: earlier } of manifests)
       assert.deepEqual(
         earlier.map(({ sha256 }) => sha256),
