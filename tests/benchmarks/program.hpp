@@ -1,6 +1,8 @@
 // The run of a program of benchmarks, by its arguments.
 #pragma once
 
+#include <filesystem>
+
 namespace CLI {
 class App;
 }
@@ -13,5 +15,8 @@ int run_program(CLI::App& app, int argc, char** argv);
 
 /// The arguments of run_program().
 char* const* program_arguments();
+/// The file that runs this program anew: that by which it was called. /proc/self/exe is the loader where a script calls
+/// it with one of its own.
+std::filesystem::path program_path();
 
 }  // namespace meniscus::benchmarks

@@ -155,7 +155,7 @@ void find_driver_near_its_tool() {
         const std::string path = (prefix / folder).string() + (before != nullptr ? ":" + std::string(before) : "");
         ::setenv(begun_anew, (prefix / folder).c_str(), 1);
         ::setenv("LD_LIBRARY_PATH", path.c_str(), 1);
-        ::execv("/proc/self/exe", const_cast<char* const*>(program_arguments()));
+        ::execv(program_path().c_str(), const_cast<char* const*>(program_arguments()));
     }
 }
 

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <utility>
 
+#include "program.hpp"
+
 namespace meniscus::benchmarks {
 namespace {
 
@@ -114,7 +116,7 @@ std::vector<Step> check_steps(std::size_t million, const std::filesystem::path& 
 }
 
 std::string find_program(const std::string& name) {
-    const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe");
+    const std::filesystem::path own = program_path();
     if (name == this_program) return own.string();
     if (is_program(own.parent_path() / name)) return (own.parent_path() / name).string();
     const char* const path = std::getenv("PATH");

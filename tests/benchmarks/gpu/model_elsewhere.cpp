@@ -9,8 +9,7 @@
 namespace meniscus::benchmarks {
 
 void run_model_elsewhere(const KernelsOptions&) {
-    const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe");
-    const std::filesystem::path other = own.parent_path() / "meniscus-bench-emulated";
+    const std::filesystem::path other = program_path().parent_path() / "meniscus-bench-emulated";
     execv(other.c_str(), program_arguments());
     throw std::runtime_error(
         "cannot run " + other.string() +
