@@ -18,7 +18,9 @@ public:
     RetainedMemory(const RetainedMemory&) = delete;
     RetainedMemory& operator=(const RetainedMemory&) = delete;
     /// The other one holds nothing afterwards.
-    RetainedMemory(RetainedMemory&& other) noexcept : memory_(other.memory_), bytes_(std::exchange(other.bytes_, 0)) {}
+    RetainedMemory(RetainedMemory&& other) noexcept : RetainedMemory(other.memory_) {
+        bytes_ = std::exchange(other.bytes_, 0);
+    }
     RetainedMemory& operator=(RetainedMemory&& other) noexcept {
         drop();
         memory_ = other.memory_;

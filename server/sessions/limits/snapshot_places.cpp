@@ -22,7 +22,7 @@ std::shared_ptr<void> one_of(std::atomic<std::uint32_t>& count, std::shared_ptr<
 SnapshotPlaces::SnapshotPlaces(std::uint32_t all, std::uint32_t of_one_name)
     : limit_(all), limit_of_name_(of_one_name) {}
 
-SnapshotPlaces::Place SnapshotPlaces::take(std::shared_ptr<NameAccount> caller) {
+SnapshotPlaces::Place SnapshotPlaces::take(const std::shared_ptr<NameAccount>& caller) {
     const std::uint32_t others = (*taken_)++;
     auto place = one_of(*taken_, taken_);
     if (limit_ != 0 && others >= limit_)

@@ -17,7 +17,7 @@ public:
     /// The place of a call, held for as long as it is under way.
     using Place = std::shared_ptr<void>;
     /// caller: may be none. Throws LimitReached.
-    Place take(std::shared_ptr<NameAccount> caller);
+    Place take(const std::shared_ptr<NameAccount>& caller);
 
 private:
     const std::uint32_t limit_;
