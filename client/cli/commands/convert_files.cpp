@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <span>
 #include <vector>
 
 #include "cli/print/listener.hpp"
@@ -73,8 +74,8 @@ std::string format_name(const std::filesystem::path& path, const std::optional<s
 
 ParticleFormat written_particle_format(const std::string& name) {
     const auto format = find_by_name<ParticleFormat>(name);
-    const auto& written = formats::written_particle_formats;
-    if (format && std::find(written.begin(), written.end(), *format) != written.end()) return *format;
+    const std::span<const ParticleFormat> written = formats::written_particle_formats();
+    if (format && std::ranges::find(written, *format) != written.end()) return *format;
     std::vector<std::string_view> known;
     known.reserve(written.size());
     for (const ParticleFormat f : written) known.push_back(name_of(f));

@@ -26,7 +26,7 @@ void write_particles(const std::filesystem::path& path, const Particles& particl
 void write_particles(const std::filesystem::path& path, const ParticleFrame& frame, ParticleFormat format) {
     if (const auto write = row_of(format)->write; write != nullptr) return write(path, frame);
     std::vector<std::string_view> written;
-    for (const ParticleFormat known : written_particle_formats) written.push_back(name_of(known));
+    for (const ParticleFormat known : written_particle_formats()) written.push_back(name_of(known));
     throw InvalidInput(output_name(path) + ": particles are written as " + listed(written) + ", not as " +
                        std::string(name_of(format)));
 }

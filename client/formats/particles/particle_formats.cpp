@@ -1,5 +1,6 @@
 #include "formats/particles/particle_formats.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "formats/bytes/extension.hpp"
@@ -14,6 +15,16 @@ std::span<const std::string_view> particle_extensions() {
             for (const std::string_view extension : row.extensions)
                 if (!extension.empty()) extensions.push_back(extension);
         return extensions;
+    }();
+    return all;
+}
+
+std::span<const ParticleFormat> written_particle_formats() {
+    static const std::vector<ParticleFormat> all = [] {
+        std::vector written{ParticleFormat::ply};
+        for (const ParticleFormatRow& row : particle_formats)
+            if (row.write != nullptr && row.format != ParticleFormat::ply) written.push_back(row.format);
+        return written;
     }();
     return all;
 }
