@@ -39,6 +39,7 @@ std::vector<FrameFiles> frames_of(const ReconstructFiles& files) {
     const auto inputs = files.selection.files(in);
     out.pad_like(in);
     spray_out.pad_like(in);
+    frames.reserve(inputs.size());
     for (const auto& [number, path] : inputs)
         frames.push_back({number, path, out.at(number), spray_out.at(number),
                           files.frame_rate ? static_cast<double>(number) / *files.frame_rate : 0.0});

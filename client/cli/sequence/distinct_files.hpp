@@ -24,7 +24,8 @@ private:
     struct Identity {
         dev_t device;
         ino_t number;
-        auto operator<=>(const Identity&) const = default;
+        auto operator<=>(const Identity&) const =
+            default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 means what the compiler writes here
     };
     static std::optional<Identity> identity(const std::filesystem::path& path, int standard_stream);
 
