@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -112,14 +111,8 @@ TEST(LatticeCoding, KeepsCappedLevels) {
     }
 }
 
-/// MENISCUS_NOISE_WORLDS: how many times as many worlds as in the suite.
-std::uint64_t worlds(std::uint64_t count) {
-    const char* const times = std::getenv("MENISCUS_NOISE_WORLDS");
-    return count * (times != nullptr ? std::strtoull(times, nullptr, 10) : 1);
-}
-
 void expect_noise_kept(const test::NoiseWorld& world, std::uint64_t first, std::uint64_t count) {
-    test::for_each_seed(world, first, worlds(count), [](const test::NoiseWorld& seeded) {
+    test::for_each_seed(world, first, test::noise_worlds(count), [](const test::NoiseWorld& seeded) {
         SCOPED_TRACE(seeded.seed);
         expect_kept(test::mesh_of_noise_on_cpu(seeded));
     });

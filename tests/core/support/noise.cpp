@@ -2,6 +2,7 @@
 #include "support/noise.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <memory>
 #include <random>
@@ -159,6 +160,11 @@ Mesh mesh_of_noise_on_cpu(const NoiseWorld& world) {
     }
     cpu::keep_lattice(state, mesh);
     return mesh;
+}
+
+std::uint64_t noise_worlds(std::uint64_t count) {
+    const char* const times = std::getenv("MENISCUS_NOISE_WORLDS");
+    return count * (times != nullptr ? std::strtoull(times, nullptr, 10) : 1);
 }
 
 }  // namespace meniscus::test

@@ -60,6 +60,9 @@ bool mark_world(const NoiseWorld& world, const Int3& brick, std::uint64_t* occup
 /// The mesh of a world by the pipeline with the CPU's steps.
 Mesh mesh_of_noise_on_cpu(const NoiseWorld& world);
 
+/// The number of worlds of a test, of which the suite has `count`: times MENISCUS_NOISE_WORLDS, where that is set.
+std::uint64_t noise_worlds(std::uint64_t count);
+
 /// Calls visit(world) for the worlds of a test: `count` seeds from `first` on.
 template <class Visit>
 void for_each_seed(NoiseWorld world, std::uint64_t first, std::uint64_t count, const Visit& visit) {
