@@ -18,10 +18,10 @@ struct PackedHash {
     }
 
 private:
-    /// All bits of the word and of its key mixed with all. (Steele, Lea, Flood 2014: Fast splittable pseudorandom
-    /// number generators, the finalizer of SplitMix64)
+    /// All bits of the word mixed, which the key made another one at each index. (Steele, Lea, Flood 2014: Fast
+    /// splittable pseudorandom number generators, SplitMix64: its sequence of states and its finalizer)
     MENISCUS_HD static std::uint64_t mixed(std::uint64_t word, std::uint64_t key) {
-        return finalized(word ^ finalized((key + 1) * 0x9E3779B97F4A7C15));
+        return finalized(word ^ (key + 1) * 0x9E3779B97F4A7C15);
     }
     MENISCUS_HD static std::uint64_t finalized(std::uint64_t bits) {
         bits = (bits ^ bits >> 30) * 0xBF58476D1CE4E5B9;
