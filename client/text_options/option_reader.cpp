@@ -9,17 +9,26 @@
 #include <type_traits>
 
 #include "meniscus/error.hpp"
+#include "meniscus/number_text.hpp"
 #include "meniscus/quoted.hpp"
 #include "meniscus/seconds.hpp"
 
 namespace meniscus::text_options {
 namespace {
 
+template <class Whole>
+std::from_chars_result read(const char* first, const char* last, Whole& value) {
+    return std::from_chars(first, last, value);
+}
+std::from_chars_result read(const char* first, const char* last, double& value) {
+    return read_number(first, last, value);
+}
+
 /// Whatever the locale. The whole text must be the number.
 template <class Number>
 bool is_number(std::string_view text, Number& value) {
     const char* const end = text.data() + text.size();
-    const auto [stopped_at, error] = std::from_chars(text.data(), end, value);
+    const auto [stopped_at, error] = read(text.data(), end, value);
     return error == std::errc() && stopped_at == end;
 }
 
@@ -120,14 +129,12 @@ template std::uint32_t OptionReader::whole_number(std::string_view, const std::s
 template std::uint64_t OptionReader::whole_number(std::string_view, const std::string&) const;
 
 std::string number_text(double value) {
-    std::array<char, 32> text{};  // the shortest that is read as the same number has 24 at most
-    char* const end = text.data() + text.size() - 1;
     // The shortest form of a round number has an exponent, as 1e+09, which options of whole numbers refuse.
     if (constexpr double first_inexact = 0x1p53; value == std::trunc(value) && std::abs(value) < first_inexact)
-        std::to_chars(text.data(), end, value, std::chars_format::fixed);
-    else
-        std::to_chars(text.data(), end, value);
-    return text.data();
+        return std::to_string(static_cast<std::int64_t>(value));
+    std::string text;
+    append_shortest(text, value);
+    return text;
 }
 
 void OptionReader::finish() const {

@@ -1,10 +1,6 @@
-// A brick of a mesh as a Draco mesh of its own.
-#include <draco/compression/expert_encode.h>
-#include <draco/mesh/mesh.h>
-
+// The part of a mesh that is one brick, and its encoding.
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,7 +8,7 @@
 #include "codec/attribute_values.hpp"
 #include "codec/brick_index.hpp"
 #include "codec/coded_bits.hpp"
-#include "codec/draco_attributes.hpp"
+#include "codec/draco_bricks.hpp"
 #include "codec/round_position.hpp"
 #include "codec/triangle_levels.hpp"
 #include "meniscus/array_form.hpp"
@@ -57,48 +53,6 @@ TriangleLevel level_at(const MeshBrick& brick, std::size_t triangle) {
     std::size_t level = 0;
     for (std::size_t end = brick.ranges[0].count; triangle >= end; end += brick.ranges[level].count) ++level;
     return static_cast<TriangleLevel>(level);
-}
-
-template <class Value>
-int add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco::DataType data_type,
-                  const std::vector<Value>& values) {
-    draco::GeometryAttribute attribute;
-    attribute.Init(type, nullptr, 3, data_type, false, sizeof(Value), 0);
-    const int id =
-        mesh.AddAttribute(attribute, true, static_cast<draco::AttributeValueIndex::ValueType>(values.size()));
-    for (std::size_t i = 0; i < values.size(); ++i)
-        mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(static_cast<std::uint32_t>(i)),
-                                              values[i].data());
-    return id;
-}
-
-std::vector<std::byte> encode_draco(const BrickContent& content, const CodingOptions& options) {
-    if (options.speed < 0 || options.speed > 10)
-        throw InvalidInput("coding speed is " + std::to_string(options.speed) + ", must be 0 to 10");
-    draco::Mesh draco_mesh;
-    draco_mesh.set_num_points(static_cast<std::uint32_t>(content.positions.size()));
-    draco_mesh.SetNumFaces(content.triangles.size());
-    for (std::uint32_t t = 0; t < content.triangles.size(); ++t) {
-        const Triangle& triangle = content.triangles[t];
-        draco_mesh.SetFace(draco::FaceIndex(t), {{draco::PointIndex(triangle[0]), draco::PointIndex(triangle[1]),
-                                                  draco::PointIndex(triangle[2])}});
-    }
-    add_attribute(draco_mesh, draco::GeometryAttribute::POSITION, draco::DT_UINT16, content.positions);
-    draco::ExpertEncoder encoder(draco_mesh);
-    encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
-    encoder.SetSpeedOptions(options.speed, options.speed);
-    if (!content.normals.empty()) {
-        const int normals =
-            add_attribute(draco_mesh, draco::GeometryAttribute::NORMAL, draco::DT_FLOAT32, content.normals);
-        encoder.SetAttributeQuantization(normals, options.normal_bits);
-    }
-    for (std::size_t a = 0; a < content.attributes.size(); ++a)
-        add_draco_attribute(draco_mesh, a, content.attribute_forms[a], content.attributes[a]);
-    draco::EncoderBuffer buffer;
-    const draco::Status status = encoder.EncodeToBuffer(&buffer);
-    if (!status.ok()) throw std::runtime_error("Draco could not encode a brick: " + status.error_msg_string());
-    const auto* bytes = reinterpret_cast<const std::byte*>(buffer.data());
-    return {bytes, bytes + buffer.size()};
 }
 
 std::vector<std::byte> encode(const BrickContent& content, const CodingOptions& options) {

@@ -1,9 +1,9 @@
 #include "codec/sha256.hpp"
 
+#include <openssl/evp.h>
+
 #include <array>
 #include <stdexcept>
-
-#include "meniscus/sha256.hpp"
 
 namespace meniscus {
 
@@ -25,12 +25,6 @@ std::string Sha256::hexadecimal() {
         text += "0123456789abcdef"[byte & 15];
     }
     return text;
-}
-
-std::string sha256_of(std::string_view bytes) {
-    Sha256 sha;
-    sha.add(std::as_bytes(std::span(bytes)));
-    return sha.hexadecimal();
 }
 
 }  // namespace meniscus

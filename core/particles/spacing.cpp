@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <utility>
+
+#include "meniscus/number_text.hpp"
 
 namespace meniscus {
 namespace {
@@ -214,9 +216,8 @@ private:
 
 /// More digits would be pretended, and would change from frame to frame.
 double two_digits(double v) {
-    std::array<char, 32> text;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), v, std::chars_format::scientific, 1).ptr;
-    std::from_chars(text.data(), end, v);
+    const std::string text = rounded_text(v, 2);
+    read_number(text.data(), text.data() + text.size(), v);
     return v;
 }
 

@@ -2,8 +2,6 @@
 #include "particles/warnings.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -11,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "meniscus/number_text.hpp"
 #include "particles/spacing.hpp"
 
 namespace meniscus {
@@ -19,12 +18,8 @@ namespace {
 /// Radii. Of the drops of lone particles all are shown up to it, some are missed by larger cells.
 constexpr double largest_cell = 1.5;
 
-/// The same in every locale.
 std::string shown(double value) {
-    std::array<char, 32> digits;
-    const auto end =
-        std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 6).ptr;
-    return {digits.data(), end};
+    return rounded_text(value, 6);
 }
 
 std::string particles_text(std::size_t count) {

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "meniscus/error.hpp"
+#include "meniscus/number_text.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -86,7 +87,7 @@ double to_number(std::string_view text, const ByteCursor& at, std::string_view w
     std::string_view digits = text;
     if (digits.size() > 1 && digits.front() == '+') digits.remove_prefix(1);
     double value = 0.0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const auto [end, error] = read_number(digits.data(), digits.data() + digits.size(), value);
     if (error == std::errc::result_out_of_range && end == digits.data() + digits.size())
         at.fail(std::string(what) + " " + quoted(text) + " is beyond what a float64 can hold");
     if (error != std::errc() || end != digits.data() + digits.size())

@@ -23,7 +23,7 @@ inline constexpr std::uint64_t most_deflation = 1032;
 /// Decompresses bytes from their beginning on, as far as is asked for.
 class Inflater {
 public:
-    /// at, what: for messages. compressed: borrowed.
+    /// at, what: for messages. compressed: borrowed. Throws by `at` in a build without zlib.
     Inflater(const ByteCursor& at, std::string_view compressed, Deflate form, std::string_view what);
     ~Inflater();
     Inflater(const Inflater&) = delete;

@@ -12,19 +12,19 @@ namespace {
 constexpr std::string_view magic{"\x93NUMPY", 6};
 
 std::optional<ScalarType> npy_type(std::string_view name) {
-    using enum ScalarType;
+    using T = ScalarType;
     static constexpr std::array<std::pair<std::string_view, ScalarType>, 11> types{{
-        {"f4", float32},
-        {"f8", float64},
-        {"i1", int8},
-        {"i2", int16},
-        {"i4", int32},
-        {"i8", int64},
-        {"u1", uint8},
-        {"u2", uint16},
-        {"u4", uint32},
-        {"u8", uint64},
-        {"b1", uint8},
+        {"f4", T::float32},
+        {"f8", T::float64},
+        {"i1", T::int8},
+        {"i2", T::int16},
+        {"i4", T::int32},
+        {"i8", T::int64},
+        {"u1", T::uint8},
+        {"u2", T::uint16},
+        {"u4", T::uint32},
+        {"u8", T::uint64},
+        {"b1", T::uint8},
     }};
     for (const auto& [key, type] : types)
         if (key == name) return type;

@@ -10,24 +10,24 @@ namespace {
 constexpr std::size_t header_line_bytes = 256;
 
 ScalarType type_by_name(std::string_view name, const ByteCursor& at) {
-    using enum ScalarType;
+    using T = ScalarType;
     static constexpr std::array<std::pair<std::string_view, ScalarType>, 16> types{{
-        {"char", int8},
-        {"int8", int8},
-        {"uchar", uint8},
-        {"uint8", uint8},
-        {"short", int16},
-        {"int16", int16},
-        {"ushort", uint16},
-        {"uint16", uint16},
-        {"int", int32},
-        {"int32", int32},
-        {"uint", uint32},
-        {"uint32", uint32},
-        {"float", float32},
-        {"float32", float32},
-        {"double", float64},
-        {"float64", float64},
+        {"char", T::int8},
+        {"int8", T::int8},
+        {"uchar", T::uint8},
+        {"uint8", T::uint8},
+        {"short", T::int16},
+        {"int16", T::int16},
+        {"ushort", T::uint16},
+        {"uint16", T::uint16},
+        {"int", T::int32},
+        {"int32", T::int32},
+        {"uint", T::uint32},
+        {"uint32", T::uint32},
+        {"float", T::float32},
+        {"float32", T::float32},
+        {"double", T::float64},
+        {"float64", T::float64},
     }};
     for (const auto& [key, type] : types)
         if (key == name) return type;

@@ -1,10 +1,9 @@
 // PKWARE's APPNOTE.TXT, "Overall .ZIP file format".
-#include <zlib.h>
-
 #include <algorithm>
 #include <bit>
 #include <optional>
 
+#include "formats/bytes/deflate.hpp"
 #include "formats/bytes/inflate.hpp"
 #include "formats/bytes/scalar.hpp"
 #include "formats/containers/zip_archive.hpp"
@@ -16,6 +15,7 @@ constexpr std::string_view local_mark{"PK\3\4", 4}, entry_mark{"PK\1\2", 4}, end
     wide_end_mark{"PK\6\6", 4}, wide_locator_mark{"PK\6\7", 4};
 constexpr std::size_t local_bytes = 30, entry_bytes = 46, end_bytes = 22, wide_end_bytes = 56, wide_locator_bytes = 20;
 constexpr std::size_t most_members = 4096;
+constexpr unsigned deflate_method = 8;
 constexpr std::uint32_t elsewhere = 0xFFFFFFFF;  ///< the number is in the field of 64-bit numbers
 
 template <class T>
@@ -89,10 +89,10 @@ ZipMember next_member(std::string_view& directory, const ByteCursor& at, std::st
     member.name = entry.substr(entry_bytes, name_bytes);
     const unsigned flags = number_at<std::uint16_t>(entry, 8), method = number_at<std::uint16_t>(entry, 10);
     if ((flags & 1U) != 0) at.fail("member " + quoted(member.name) + " is encrypted");
-    if (method != 0 && method != Z_DEFLATED)
+    if (method != 0 && method != deflate_method)
         at.fail("member " + quoted(member.name) + " is compressed by method " + std::to_string(method) +
                 "; stored and deflated members are read");
-    member.deflated = method == Z_DEFLATED;
+    member.deflated = method == deflate_method;
     member.crc = number_at<std::uint32_t>(entry, 16);
     WideNumbers wide(entry.substr(entry_bytes + name_bytes, extra));
     member.size = wide.of(number_at<std::uint32_t>(entry, 24), at);
@@ -153,8 +153,7 @@ std::string_view contents(const ZipMember& member, const ByteCursor& at, std::st
     if (bytes.size() != member.size)
         at.fail(what + " has " + std::to_string(bytes.size()) + " bytes decompressed, " + std::to_string(member.size) +
                 " are announced");
-    const auto crc = ::crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
-    if (crc != member.crc) at.fail(what + " is damaged: its bytes do not have their checksum");
+    if (crc32(0, bytes) != member.crc) at.fail(what + " is damaged: its bytes do not have their checksum");
     return bytes;
 }
 

@@ -1,5 +1,4 @@
-#include <zlib.h>
-
+#include "formats/bytes/deflate.hpp"
 #include "formats/bytes/scalar.hpp"
 #include "formats/containers/zip_archive.hpp"
 
@@ -25,14 +24,11 @@ void store_common(std::string& out, std::uint32_t crc, const std::string& name, 
 
 void ZipWriter::add(const std::string& name, std::span<const std::string_view> parts) {
     std::uint64_t size = 0;
-    auto crc = ::crc32_z(0, nullptr, 0);
+    std::uint32_t checksum = 0;
     for (const std::string_view part : parts) {
-        // zlib takes no address for a new beginning.
-        if (part.empty()) continue;
-        crc = ::crc32_z(crc, reinterpret_cast<const Bytef*>(part.data()), part.size());
+        checksum = crc32(checksum, part);
         size += part.size();
     }
-    const auto checksum = static_cast<std::uint32_t>(crc);
     std::string header = "PK\3\4";
     store_common(header, checksum, name, 20);
     header += name;

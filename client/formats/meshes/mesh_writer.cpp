@@ -1,26 +1,27 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "formats/bytes/atomic_file.hpp"
 #include "formats/containers/ply_properties.hpp"
 #include "formats/meshes/mesh_writers.hpp"
+#include "meniscus/number_text.hpp"
 
 namespace meniscus::formats {
 namespace {
 
 constexpr std::size_t flush_bytes = std::size_t{1} << 20;
 
-/// The shortest decimal that reads back as the same number.
 template <class T>
 void append(std::string& out, T value) {
-    std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    out.append(digits.data(), end);
+    if constexpr (std::is_floating_point_v<T>)
+        append_shortest(out, value);
+    else
+        out += std::to_string(value);
 }
 
 /// Numbers of a binary file, as they lie in memory.

@@ -1,19 +1,19 @@
 #include "formats/meshes/pvd_writer.hpp"
 
-#include <array>
-#include <charconv>
 #include <pugixml.hpp>
 #include <sstream>
 #include <string>
 
 #include "formats/bytes/atomic_file.hpp"
+#include "meniscus/number_text.hpp"
 
 namespace meniscus::formats {
 namespace {
 
 std::string shortest(double number) {
-    std::array<char, 32> digits{};
-    return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
+    std::string text;
+    append_shortest(text, number);
+    return text;
 }
 
 }  // namespace

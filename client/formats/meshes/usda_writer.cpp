@@ -2,15 +2,16 @@
 // clips. Written by the format's description (openusd.org, "Value Clips", "UsdGeomMesh"); no USD program has opened it
 // yet.
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <string>
 #include <system_error>
+#include <type_traits>
 
 #include "files/centered_positions.hpp"
 #include "formats/bytes/atomic_file.hpp"
 #include "formats/meshes/usda_writer.hpp"
+#include "meniscus/number_text.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -18,11 +19,13 @@ namespace {
 constexpr std::string_view translated = "    uniform token[] xformOpOrder = [\"xformOp:translate\"]\n";
 constexpr std::size_t flush_bytes = std::size_t{1} << 20;
 
-/// The shortest decimal that reads back as the same number; USD spells what is not finite as Python does.
+/// USD spells what is not finite as Python does, and as append_shortest().
 template <class Number>
 void append(std::string& out, Number value) {
-    std::array<char, 32> digits{};
-    out.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+    if constexpr (std::is_floating_point_v<Number>)
+        append_shortest(out, value);
+    else
+        out += std::to_string(value);
 }
 
 template <class Number>

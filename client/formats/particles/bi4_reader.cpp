@@ -34,12 +34,12 @@ struct Bi4Type {
 };
 
 std::optional<Bi4Type> bi4_type(std::int32_t number) {
-    using enum ScalarType;
+    using T = ScalarType;
     static constexpr std::array types{
-        Bi4Type{2, int32, 1},   Bi4Type{3, int8, 1},     Bi4Type{4, uint8, 1},    Bi4Type{5, int16, 1},
-        Bi4Type{6, uint16, 1},  Bi4Type{7, int32, 1},    Bi4Type{8, uint32, 1},   Bi4Type{9, int64, 1},
-        Bi4Type{10, uint64, 1}, Bi4Type{11, float32, 1}, Bi4Type{12, float64, 1}, Bi4Type{20, int32, 3},
-        Bi4Type{21, uint32, 3}, Bi4Type{22, float32, 3}, Bi4Type{23, float64, 3},
+        Bi4Type{2, T::int32, 1},   Bi4Type{3, T::int8, 1},     Bi4Type{4, T::uint8, 1},    Bi4Type{5, T::int16, 1},
+        Bi4Type{6, T::uint16, 1},  Bi4Type{7, T::int32, 1},    Bi4Type{8, T::uint32, 1},   Bi4Type{9, T::int64, 1},
+        Bi4Type{10, T::uint64, 1}, Bi4Type{11, T::float32, 1}, Bi4Type{12, T::float64, 1}, Bi4Type{20, T::int32, 3},
+        Bi4Type{21, T::uint32, 3}, Bi4Type{22, T::float32, 3}, Bi4Type{23, T::float64, 3},
     };
     for (const Bi4Type& type : types)
         if (type.number == number) return type;

@@ -1,10 +1,6 @@
 // HDF5: datasets in the root, the gas of Gadget and SWIFT ("PartType0"), a step of H5Part ("Step#0"), and what PySPH
 // writes (a group of datasets for each kind of particles, below "particles"). Nothing is read that lies in another
 // file. Otherwise a file is untrusted only as far as HDF5's library is: see client/README.md.
-#include "formats/bytes/byte_cursor.hpp"
-#include "formats/particles/particle_readers.hpp"
-
-#ifdef MENISCUS_HDF5
 #include <hdf5.h>
 
 #include <algorithm>
@@ -14,8 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "formats/bytes/byte_cursor.hpp"
 #include "formats/bytes/read_budget.hpp"
 #include "formats/containers/array_collector.hpp"
+#include "formats/particles/particle_readers.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -154,20 +152,21 @@ struct Dataset {
 };
 
 std::optional<ScalarType> scalar_type(hid_t type) {
-    using enum ScalarType;
+    using T = ScalarType;
     const std::size_t size = H5Tget_size(type);
-    if (H5Tget_class(type) == H5T_FLOAT) return size == 8 ? float64 : size == 4 ? std::optional(float32) : std::nullopt;
+    if (H5Tget_class(type) == H5T_FLOAT)
+        return size == 8 ? T::float64 : size == 4 ? std::optional(T::float32) : std::nullopt;
     if (H5Tget_class(type) != H5T_INTEGER) return std::nullopt;
     const bool is_signed = H5Tget_sign(type) != H5T_SGN_NONE;
     switch (size) {
         case 1:
-            return is_signed ? int8 : uint8;
+            return is_signed ? T::int8 : T::uint8;
         case 2:
-            return is_signed ? int16 : uint16;
+            return is_signed ? T::int16 : T::uint16;
         case 4:
-            return is_signed ? int32 : uint32;
+            return is_signed ? T::int32 : T::uint32;
         case 8:
-            return is_signed ? int64 : uint64;
+            return is_signed ? T::int64 : T::uint64;
         default:
             return std::nullopt;
     }
@@ -379,15 +378,3 @@ Particles read_hdf5(const std::string& name, std::string_view bytes, const ReadL
 }
 
 }  // namespace meniscus::formats
-
-#else
-
-namespace meniscus::formats {
-
-Particles read_hdf5(const std::string& name, std::string_view bytes, const ReadLimits&) {
-    ByteCursor(name, bytes).fail("this build reads no HDF5: build it where libhdf5-dev is installed");
-}
-
-}  // namespace meniscus::formats
-
-#endif

@@ -31,30 +31,30 @@ std::string upper(std::string_view text) {
 
 /// A VTK type by its name in upper case; none for `bit`, `string` and unknown ones. vtkIdType is written as int32.
 std::optional<ScalarType> type_by_name(std::string_view name) {
-    using enum ScalarType;
+    using T = ScalarType;
     static constexpr std::array<std::pair<std::string_view, ScalarType>, 22> types{{
-        {"FLOAT", float32},
-        {"DOUBLE", float64},
-        {"INT", int32},
-        {"UNSIGNED_INT", uint32},
-        {"CHAR", int8},
-        {"SIGNED_CHAR", int8},
-        {"UNSIGNED_CHAR", uint8},
-        {"SHORT", int16},
-        {"UNSIGNED_SHORT", uint16},
-        {"LONG", int64},
-        {"UNSIGNED_LONG", uint64},
-        {"VTKIDTYPE", int32},
-        {"VTKTYPEINT64", int64},
-        {"VTKTYPEUINT64", uint64},
-        {"VTKTYPEINT32", int32},
-        {"VTKTYPEUINT32", uint32},
-        {"VTKTYPEINT8", int8},
-        {"VTKTYPEUINT8", uint8},
-        {"VTKTYPEINT16", int16},
-        {"VTKTYPEUINT16", uint16},
-        {"VTKTYPEFLOAT32", float32},
-        {"VTKTYPEFLOAT64", float64},
+        {"FLOAT", T::float32},
+        {"DOUBLE", T::float64},
+        {"INT", T::int32},
+        {"UNSIGNED_INT", T::uint32},
+        {"CHAR", T::int8},
+        {"SIGNED_CHAR", T::int8},
+        {"UNSIGNED_CHAR", T::uint8},
+        {"SHORT", T::int16},
+        {"UNSIGNED_SHORT", T::uint16},
+        {"LONG", T::int64},
+        {"UNSIGNED_LONG", T::uint64},
+        {"VTKIDTYPE", T::int32},
+        {"VTKTYPEINT64", T::int64},
+        {"VTKTYPEUINT64", T::uint64},
+        {"VTKTYPEINT32", T::int32},
+        {"VTKTYPEUINT32", T::uint32},
+        {"VTKTYPEINT8", T::int8},
+        {"VTKTYPEUINT8", T::uint8},
+        {"VTKTYPEINT16", T::int16},
+        {"VTKTYPEUINT16", T::uint16},
+        {"VTKTYPEFLOAT32", T::float32},
+        {"VTKTYPEFLOAT64", T::float64},
     }};
     for (const auto& [key, type] : types)
         if (key == name) return type;

@@ -29,18 +29,18 @@ constexpr std::size_t most_marks = 1'000'000;
 constexpr std::uint64_t block_cost = 64;
 
 std::optional<ScalarType> xml_type_by_name(std::string_view name) {
-    using enum ScalarType;
+    using T = ScalarType;
     static constexpr std::array<std::pair<std::string_view, ScalarType>, 10> types{{
-        {"Int8", int8},
-        {"UInt8", uint8},
-        {"Int16", int16},
-        {"UInt16", uint16},
-        {"Int32", int32},
-        {"UInt32", uint32},
-        {"Int64", int64},
-        {"UInt64", uint64},
-        {"Float32", float32},
-        {"Float64", float64},
+        {"Int8", T::int8},
+        {"UInt8", T::uint8},
+        {"Int16", T::int16},
+        {"UInt16", T::uint16},
+        {"Int32", T::int32},
+        {"UInt32", T::uint32},
+        {"Int64", T::int64},
+        {"UInt64", T::uint64},
+        {"Float32", T::float32},
+        {"Float64", T::float64},
     }};
     for (const auto& [key, type] : types)
         if (key == name) return type;

@@ -1,13 +1,11 @@
 #include "formats/vtk/vtk_xml_writer.hpp"
 
-#include <zlib.h>
-
 #include <bit>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "formats/bytes/base64_writer.hpp"
+#include "formats/bytes/deflate.hpp"
 #include "formats/bytes/scalar.hpp"
 
 namespace meniscus::formats {
@@ -32,22 +30,12 @@ std::string_view vtk_type_of(ElementType type) {
     return {};
 }
 
-std::string compressed(std::string_view bytes) {
-    uLongf size = ::compressBound(static_cast<uLong>(bytes.size()));
-    std::string out(size, '\0');
-    if (::compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                    static_cast<uLong>(bytes.size()), Z_BEST_SPEED) != Z_OK)
-        throw std::runtime_error("zlib does not compress " + std::to_string(bytes.size()) + " bytes");
-    out.resize(size);
-    return out;
-}
-
 /// A header of the number of blocks, their size, that of the last one if it is smaller and their compressed sizes; then
 /// the blocks, as a stream of their own.
 void write_blocks(AtomicFile& file, std::string_view bytes) {
     std::vector<std::string> blocks;
     for (std::size_t at = 0; at < bytes.size(); at += block_bytes)
-        blocks.push_back(compressed(bytes.substr(at, block_bytes)));
+        blocks.push_back(deflated(bytes.substr(at, block_bytes)));
     std::string header;
     store(header, std::uint64_t{blocks.size()});
     store(header, std::uint64_t{block_bytes});

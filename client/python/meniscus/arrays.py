@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Mapping, NamedTuple, Optional
+from typing import TYPE_CHECKING, Any, Mapping, NamedTuple, Optional
 
 import numpy as np
 
 from .errors import InvalidInput
 from .named import array_name
 
-Array = np.ndarray[Any, np.dtype[Any]]
+if TYPE_CHECKING:  # from numpy 1.20 on
+    Array = np.ndarray[Any, np.dtype[Any]]
 
 
 class Frame(NamedTuple):
@@ -62,6 +63,8 @@ def _as_array(value: Any, what: str) -> Array:
     if not hasattr(value, "__array__") and hasattr(value, "__dlpack__"):
         if value.__dlpack_device__()[0] not in _DLPACK_CPU:
             raise InvalidInput(f"{what} does not lie in memory of the CPU: copy it there first")
+        if not hasattr(np, "from_dlpack"):
+            raise InvalidInput(f"{what} has DLPack alone, which numpy reads from 1.22 on; here it is {np.__version__}")
         value = np.from_dlpack(value)
     try:
         # No filter of warnings: those are the whole process's, and calls of several threads would leave theirs behind.

@@ -6,14 +6,16 @@ import os
 import re
 import warnings
 from dataclasses import dataclass, field
-from typing import Any, Mapping, Optional, Union
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import _meniscus
 from .errors import InvalidInput, SurfaceWarning
 from .named import Named
+
+if TYPE_CHECKING:  # from numpy 1.20 on
+    from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, repr=False)

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Mapping, Optional
+from typing import TYPE_CHECKING, Mapping, Optional
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import _meniscus
 from .errors import InvalidInput
 from .mesh import Mesh
 from .statistics import Statistics
+
+if TYPE_CHECKING:  # from numpy 1.20 on
+    from numpy.typing import NDArray
 
 
 @dataclass(frozen=True)

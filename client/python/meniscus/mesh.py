@@ -6,15 +6,17 @@ import base64
 import html
 import os
 from functools import cached_property
-from typing import Any, Mapping, Optional, Union
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import _meniscus, exchange
 from .errors import InvalidInput
 from .named import Named
 from .statistics import Statistics
+
+if TYPE_CHECKING:  # from numpy 1.20 on
+    from numpy.typing import NDArray
 
 
 class Mesh:

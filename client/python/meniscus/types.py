@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol, Sequence, Union
+from typing import TYPE_CHECKING, Any, Protocol, Sequence, Union
 
 import numpy as np
-from numpy.typing import NDArray
+
+if TYPE_CHECKING:  # from numpy 1.20 on
+    from numpy.typing import NDArray
 
 Real = Union[float, "np.floating[Any]", "np.integer[Any]"]
 Whole = Union[int, "np.integer[Any]"]
@@ -37,8 +39,8 @@ class OnGpu(Protocol):
 
 
 #: An array of particles. Narrower than numpy's own type of this name, which a path would be, too.
-ArrayLike = Union[NDArray[Any], SupportsArray, SupportsDLPack, OnGpu, Sequence[Real], Sequence[Sequence[Real]]]
+ArrayLike = Union["NDArray[Any]", SupportsArray, SupportsDLPack, OnGpu, Sequence[Real], Sequence[Sequence[Real]]]
 #: Three numbers, world units.
-Point = Union[Sequence[Real], NDArray[Any]]
+Point = Union[Sequence[Real], "NDArray[Any]"]
 #: The smallest and the largest corner, world units.
-Box = Union[Sequence[Point], NDArray[Any]]
+Box = Union[Sequence[Point], "NDArray[Any]"]

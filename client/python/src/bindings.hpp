@@ -10,6 +10,8 @@ void bind_files(pybind11::module_& module);
 void bind_mesh(pybind11::module_& module);
 void bind_device_mesh(pybind11::module_& module);
 void bind_reconstructor(pybind11::module_& module);
+/// What needs a server, or the files that one writes.
+void bind_service(pybind11::module_& module);
 void bind_frame(pybind11::module_& module);
 void bind_particle_frame(pybind11::module_& module);
 void bind_reconnect_handlers(pybind11::module_& module);

@@ -11,6 +11,9 @@
 
 namespace py = pybind11;
 
+// Before 2.8 a translator sees the exceptions of other modules, too: those that may be theirs are left alone.
+#define MENISCUS_LOCAL_TRANSLATORS (PYBIND11_VERSION_MAJOR > 2 || PYBIND11_VERSION_MINOR >= 8)
+
 namespace meniscus::python {
 namespace {
 
@@ -35,17 +38,26 @@ void translate(std::exception_ptr thrown) {
         raise("ServerError", error, name_of(error.code()), error.status());
     } catch (const ForkedError& error) {
         raise("ForkedError", error);
+    } catch (const NotBuilt& error) {
+        raise("Error", error);
     } catch (const py::builtin_exception&) {
         throw;  // pybind11's own
-    } catch (const std::runtime_error& error) {
+    }
+#if MENISCUS_LOCAL_TRANSLATORS
+    catch (const std::runtime_error& error) {
         raise("Error", error);  // a full disk, no more threads
     }
+#endif
 }
 
 }  // namespace
 
 void bind_errors(py::module_& /*module*/) {
+#if MENISCUS_LOCAL_TRANSLATORS
     py::register_local_exception_translator(&translate);
+#else
+    py::register_exception_translator(&translate);
+#endif
 }
 
 }  // namespace meniscus::python

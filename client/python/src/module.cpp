@@ -30,15 +30,6 @@ PYBIND11_MODULE(_meniscus, module) {
     bind_mesh(module);
     bind_device_mesh(module);
     bind_reconstructor(module);
-    bind_frame(module);
-    bind_particle_frame(module);
-    bind_reconnect_handlers(module);
-    bind_stream(module);
-    bind_watcher(module);
-    bind_recording(module);
-    bind_recording_file(module);
-    bind_publication(module);
-    bind_session(module);
-    bind_client(module);
+    bind_service(module);
     forbid_bare_objects(module);
 }

@@ -37,7 +37,8 @@ pybind11::object value_object(const Value& value, const Facts& facts) {
         return value ? value_object(*value, facts) : pybind11::none();
     } else if constexpr (requires { value.size(); }) {
         pybind11::dict out;
-        for (std::size_t i = 0; i < value.size(); ++i) out[pybind11::str(facts.entries[i])] = value[i];
+        for (std::size_t i = 0; i < value.size(); ++i)
+            out[pybind11::str(facts.entries[i].data(), facts.entries[i].size())] = value[i];
         return out;
     } else {
         return pybind11::cast(value);

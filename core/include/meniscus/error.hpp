@@ -1,5 +1,5 @@
-// The two ways in which a request can be refused, a request that was asked to end, and a GPU that fails. Any other
-// exception is a defect.
+// The two ways in which a request can be refused, a request that was asked to end, a part that a build lacks, and a GPU
+// that fails. Any other exception is a defect.
 #pragma once
 
 #include <stdexcept>
@@ -29,6 +29,14 @@ public:
 class Stopped : public std::runtime_error {
 public:
     Stopped() : std::runtime_error("the reconstruction was stopped") {}
+};
+
+/// What is asked for needs a part that this library was built without. The message names both, and how to build it.
+class NotBuilt : public std::runtime_error {
+public:
+    /// without: the part, and where it is to be had, as "OpenSSL: build it where libssl-dev is installed".
+    NotBuilt(const std::string& what, const std::string& without)
+        : std::runtime_error(what + " is not in this build of Meniscus, which was made without " + without) {}
 };
 
 /// A call to CUDA failed. Results on that device are lost. The reconstructor that threw this may be destroyed; it may

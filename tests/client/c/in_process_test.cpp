@@ -429,7 +429,9 @@ TEST(CInProcess, ALongMessageEndsBetweenCharacters) {
         for (int i = 0; i < 1000; ++i) name += "\u20ac";  // three bytes each
         const COptions options = options_of({{"tls-cert", name.c_str()}, {"tls-key", "key"}});
         CClient client;
-        ASSERT_EQ(meniscus_client_connect("127.0.0.1:1", options.get(), client.out()), MENISCUS_INVALID_INPUT);
+        const meniscus_result result = meniscus_client_connect("127.0.0.1:1", options.get(), client.out());
+        if (result == MENISCUS_UNIMPLEMENTED) GTEST_SKIP() << meniscus_error_message();
+        ASSERT_EQ(result, MENISCUS_INVALID_INPUT);
         const std::string message = meniscus_error_message();
         EXPECT_GT(message.size(), 1017U);
         EXPECT_LT(message.size(), 1024U);

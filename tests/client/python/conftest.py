@@ -1,6 +1,7 @@
 """Servers, clients and particles for the tests of the Python package.
 
-MENISCUSD and MENISCUS_CLI name the programs, PYTHONPATH the folder with the package as it was built.
+MENISCUSD and MENISCUS_CLI name the programs, PYTHONPATH the folder with the package as it was built. Neither program is
+named where the build has none (-DMENISCUS_SERVICE=OFF): tests that need a server are skipped.
 """
 
 import os
@@ -23,9 +24,12 @@ repository = pathlib.Path(__file__).parents[3]
 tokens = {role: f"{role}-of-these-tests" for role in ("uploader", "watcher", "admin")}
 
 
+has_service = meniscusd.program != "" or command_line.program != ""
+
+
 def pytest_configure(config):
     for variable, program in ("MENISCUSD", meniscusd.program), ("MENISCUS_CLI", command_line.program):
-        if not os.access(program, os.X_OK):
+        if has_service and not os.access(program, os.X_OK):
             raise pytest.UsageError(f"{variable} is '{program}', must be the path of the program")
 
 
@@ -39,6 +43,8 @@ def socket_folder():
 @pytest.fixture(scope="session")
 def server():
     """One for all tests that leave it as it was. It records."""
+    if not has_service:
+        pytest.skip("this build has no server")
     with tempfile.TemporaryDirectory(prefix="meniscus-") as folder:
         running = Server(folder, "--record", f"{folder}/recordings", "--max-sessions", 200)
         yield running

@@ -108,6 +108,8 @@ FORMS = {
 
 @pytest.mark.parametrize("form", FORMS)
 def test_positions_of_every_form_give_the_same_mesh(form, positions, mesh, tmp_path):
+    if "DLPack" in form and not hasattr(np, "from_dlpack"):
+        pytest.skip("numpy has DLPack from 1.22 on")
     if form == "a memory map":
         np.save(tmp_path / "positions.npy", positions)
         given = np.load(tmp_path / "positions.npy", mmap_mode="r")

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -12,6 +11,7 @@
 
 #include "meniscus/meniscus.hpp"
 #include "support/damaged_bricks.hpp"
+#include "support/float_bits.hpp"
 #include "support/mesh_attributes.hpp"
 #include "support/particles.hpp"
 
@@ -135,7 +135,7 @@ TEST(CodedRange, HoldsTheValuesAndIsAtMostAnEighthWiderOnEachSide) {
     for (int i = 0; i < 10'000; ++i) {
         std::vector<float> ends(2);
         for (float& end : ends) do
-                end = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+                end = test::float_of(static_cast<std::uint32_t>(random()));
             while (!std::isfinite(end));
         if (i % 2 == 0) ends[1] = std::nextafter(ends[0], largest) + static_cast<float>(i % 8) * std::abs(ends[0]) / 9;
         if (!std::isfinite(ends[1])) continue;
@@ -262,7 +262,7 @@ TEST(AttributeBricks, KeepEveryBitOfFloatsAndIds) {
     std::vector<std::uint32_t> ids;
     std::vector<std::int32_t> numbers;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        float any = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+        float any = test::float_of(static_cast<std::uint32_t>(random()));
         if (!std::isfinite(any)) any = -0.0F;
         floats.push_back(v % 7 == 0 ? smallest : any);
         ids.push_back(v % 5 == 0 ? 0xFFFFFFFFU : static_cast<std::uint32_t>(random()));

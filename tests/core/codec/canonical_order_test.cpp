@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "meniscus/meniscus.hpp"
+#include "support/has_draco.hpp"
 #include "support/mesh_attributes.hpp"
 #include "support/particles.hpp"
 
@@ -173,6 +174,7 @@ TEST(CanonicalOrder, TakesAttributesAndNormalsAlongInPlace) {
 }
 
 TEST(RoundedNormals, AreThoseOfAMeshThatWasEncodedAndDecoded) {
+    if (!test::has_draco()) GTEST_SKIP() << "this build has no Draco";
     for (const bool normals : {true, false}) {
         Mesh mesh = splash(Mode::adaptive, normals);
         mesh.attributes.clear();

@@ -9,6 +9,7 @@
 
 #include "meniscus/meniscus.hpp"
 #include "support/damaged_bricks.hpp"
+#include "support/has_draco.hpp"
 #include "support/mesh_attributes.hpp"
 #include "support/noise.hpp"
 #include "support/particles.hpp"
@@ -139,6 +140,7 @@ TEST(LatticeCoding, KeepsWhiteNoiseInUniformMode) {
 }
 
 TEST(LatticeCoding, RoundsPositionsAndNormalsAsDracoDoes) {
+    if (!test::has_draco()) GTEST_SKIP() << "this build has no Draco";
     for (const Mode mode : {Mode::adaptive, Mode::uniform}) {
         Settings settings = test::default_settings();
         settings.mode = mode;
@@ -157,6 +159,7 @@ TEST(LatticeCoding, RoundsPositionsAndNormalsAsDracoDoes) {
 }
 
 TEST(LatticeCoding, KeepsAttributesAsDracoDoes) {
+    if (!test::has_draco()) GTEST_SKIP() << "this build has no Draco";
     Mesh mesh = test::reconstruct(test::default_settings(), test::splash(67).frame());
     test::add_attributes(mesh);
     for (const int bits : {0, 5, 12}) {
@@ -170,6 +173,7 @@ TEST(LatticeCoding, KeepsAttributesAsDracoDoes) {
 }
 
 TEST(LatticeCoding, IsEncodedAgainByDracoWithoutLoss) {
+    if (!test::has_draco()) GTEST_SKIP() << "this build has no Draco";
     Mesh mesh = test::reconstruct(test::default_settings(), test::splash(67).frame());
     test::add_attributes(mesh);
     const AttributeWish all{"", 9};

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "meniscus/meniscus.hpp"
+#include "support/has_draco.hpp"
 #include "support/noise.hpp"
 #include "support/particles.hpp"
 
@@ -196,6 +197,7 @@ TEST(MeshNormals, AreTheSameToTheBitInEveryOrderOfTheTriangles) {
 }
 
 TEST(MeshNormals, AreTheSameToTheBitThroughEveryCodec) {
+    if (!test::has_draco()) GTEST_SKIP() << "this build has no Draco";
     const auto particles = test::splash(64);
     for (const Mode mode : {Mode::adaptive, Mode::uniform}) {
         Settings settings = test::default_settings();

@@ -1,13 +1,13 @@
 // Lanes round as scalars do: the same bits on every path rest on it.
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <random>
 #include <utility>
 
 #include "field/lanes.hpp"
+#include "support/float_bits.hpp"
 
 namespace meniscus {
 namespace {
@@ -23,7 +23,7 @@ struct Operands {
             std::uniform_real_distribution<float> of_the_field(-2.0F, 2.0F);
             switch (random() % 8) {
                 case 0:
-                    return std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+                    return test::float_of(static_cast<std::uint32_t>(random()));
                 case 1:
                     return random() % 2 == 0 ? 0.0F : -0.0F;
                 default:
@@ -44,7 +44,7 @@ void expect_same(const char* operation, const Operands& x, WideLanes lanes, floa
     for (std::size_t i = 0; i < lane_count; ++i) {
         const float expected = scalar(x.a[i], x.b[i], x.c[i]);
         if (std::isnan(expected) && std::isnan(of_lanes[i])) continue;
-        ASSERT_EQ(std::bit_cast<std::uint32_t>(of_lanes[i]), std::bit_cast<std::uint32_t>(expected))
+        ASSERT_EQ(test::bits_of(of_lanes[i]), test::bits_of(expected))
             << operation << " of " << x.a[i] << ", " << x.b[i] << ", " << x.c[i];
     }
 }
@@ -105,7 +105,7 @@ TEST(Lanes, ASetIsStoredInItsOrder) {
         std::size_t next = 0;
         for (std::size_t i = 0; i < lane_count; ++i) {
             if ((set >> i & 1) == 0) continue;
-            ASSERT_EQ(std::bit_cast<std::uint32_t>(stored[next++]), std::bit_cast<std::uint32_t>(x.c[i]));
+            ASSERT_EQ(test::bits_of(stored[next++]), test::bits_of(x.c[i]));
         }
     }
 }

@@ -48,7 +48,7 @@ typedef enum meniscus_result {
     MENISCUS_FAILED_PRECONDITION = -10, /* not possible now */
     MENISCUS_DEADLINE_EXCEEDED = -11,   /* the server did not answer in time */
     MENISCUS_CANCELED = -12,
-    MENISCUS_UNIMPLEMENTED = -13, /* a server of another version, or none of ours */
+    MENISCUS_UNIMPLEMENTED = -13, /* a server of another version, or none of ours; a part that this library lacks */
     MENISCUS_DATA_LOSS = -14,     /* what was received is damaged */
     MENISCUS_ABORTED = -15,       /* gave way to another call */
     MENISCUS_INTERNAL = -16,      /* a defect: please report it with its message */

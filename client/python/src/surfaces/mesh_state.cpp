@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "conversion/statistics_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/particle_frame.hpp"
+#include "surfaces/figures.hpp"
 #include "surfaces/mesh_arrays.hpp"
 #include "values/arrays_in.hpp"
 #include "values/arrays_out.hpp"
@@ -32,22 +32,16 @@ static_assert(sizeof(MeshBrick) == brick_numbers * sizeof(std::int32_t) && std::
     throw InvalidInput("the pickled mesh is damaged: " + what);
 }
 
-const Statistics& figures_of(const MeshHandle& handle) {
+const Statistics& statistics_of(const MeshHandle& handle) {
     if (const auto* received = std::get_if<std::shared_ptr<const client::ReceivedFrame>>(&handle.origin))
         return (*received)->statistics;
     return std::get<Statistics>(handle.origin);
 }
 
-std::string written(const Statistics& figures) {
-    v1::FrameStatistics wire;
-    conversion::to_wire(figures, wire);
-    return wire.SerializeAsString();
-}
-
 Statistics read_figures(const std::string& bytes) {
-    v1::FrameStatistics wire;
-    if (!wire.ParseFromString(bytes)) refuse("its figures are no message");
-    return conversion::from_wire(wire);
+    const std::optional<Statistics> figures = figures_of(bytes);
+    if (!figures) refuse("its figures are no message");
+    return *figures;
 }
 
 py::object part(const py::dict& state, const char* name) {
@@ -137,7 +131,7 @@ py::dict state_of(const py::object& self) {
     state["bricks"] = view(py::dtype::of<std::int32_t>(), mesh.bricks.size(), brick_numbers, mesh.bricks.data(), self);
     state["attributes"] = attribute_views(self);
     state["spray"] = spray_view(self);
-    state["figures"] = py::bytes(written(figures_of(handle)));
+    state["figures"] = py::bytes(figure_bytes(statistics_of(handle)));
     return state;
 }
 

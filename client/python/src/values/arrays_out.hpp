@@ -32,7 +32,7 @@ constexpr std::size_t columns_of(std::size_t components) {
 /// A read-only array that owns the numbers that fill(Number*) sets. rows, columns: as those of view().
 template <class Number, class Fill>
 pybind11::array filled_array(std::size_t rows, std::size_t columns, const Fill& fill) {
-    auto numbers = std::make_unique_for_overwrite<Number[]>(rows * (columns == 0 ? 1 : columns));
+    std::unique_ptr<Number[]> numbers(new Number[rows * (columns == 0 ? 1 : columns)]);
     fill(numbers.get());
     // numpy cannot make an array writable whose owner is none of its own.
     const pybind11::capsule owner(numbers.get(), [](void* all) { delete[] static_cast<Number*>(all); });

@@ -25,7 +25,8 @@ enum class ErrorCode {
     deadline_exceeded,    ///< the server has not answered in time
     canceled,             ///< by cancel() or a StopFlag here, or by a proxy or the server
     aborted,              ///< gives way to another call
-    unimplemented,        ///< the server knows no such call: it is none, is of another version, or records nothing
+    unimplemented,        ///< the server knows no such call: it is none, is of another version, or records nothing;
+                          ///< NotBuilt: this library lacks the part
     data_loss,            ///< what came from the server makes no sense, or is damaged
     internal,             ///< a defect of the server
     device,               ///< DeviceError: a GPU failed

@@ -1,0 +1,17 @@
+// A build without OpenSSL.
+#include "codec/sha256.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus {
+
+Sha256::Sha256() : context_(nullptr, nullptr) {
+    throw NotBuilt("SHA-256 (mesh_sha256)", "OpenSSL: build it where libssl-dev is installed");
+}
+
+void Sha256::add(std::span<const std::byte> /*bytes*/) {}
+
+std::string Sha256::hexadecimal() {
+    return {};
+}
+
+}  // namespace meniscus
