@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "files/publication_window.hpp"
-#include "meniscus/seconds.hpp"
 #include "process/call_log.hpp"
 #include "process/log.hpp"
 
@@ -84,9 +83,7 @@ std::shared_ptr<SessionObserver> Publications::observe(const SessionIdentity& id
     const auto found = entries_.find(identity.id);
     std::shared_ptr<Publication> publication = found != entries_.end() ? found->second : nullptr;
     if (!publication || publication->owner() != identity.owner || publication->settings() != settings) {
-        publication = std::make_shared<Publication>(
-            identity.owner, settings,
-            options_.keep.count() != 0 ? std::optional(seconds_of(options_.keep)) : std::nullopt, counters_);
+        publication = std::make_shared<Publication>(identity.owner, settings, options_, counters_);
         entries_.insert_or_assign(identity.id, publication);
     }
     return std::make_shared<SessionPublication>(*this, publication, identity);

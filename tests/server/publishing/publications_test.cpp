@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "files/publication_pace.hpp"
 #include "published_frames.hpp"
 #include "test_frames.hpp"
 
@@ -27,10 +28,10 @@ SessionIdentity identity(int number, const std::string& owner = {}) {
 
 /// A frame that is a segment by itself.
 std::shared_ptr<const EncodedFrame> large_frame(std::uint64_t index) {
-    return std::make_shared<const EncodedFrame>(encoded_frame(index, {std::string(Publication::segment_bytes, 'x')}));
+    return std::make_shared<const EncodedFrame>(encoded_frame(index, {std::string(files::segment_bytes, 'x')}));
 }
 
-constexpr std::size_t limit = 10 * (Publication::segment_bytes + 1000);
+constexpr std::size_t limit = 10 * (files::segment_bytes + 1000);
 
 struct Published {
     Publications all{{.enabled = true, .keep = std::chrono::minutes(1), .limit = limit}, most_ended};
@@ -45,7 +46,7 @@ TEST(Publications, StayWithinTheirMemoryByWhatTheLargestLose) {
     std::size_t bytes = 0;
     for (int i = 0; i < 3; ++i) bytes += published.all.find(id_of(i))->bytes();
     EXPECT_LE(bytes, limit);
-    EXPECT_GT(bytes, limit - 2 * Publication::segment_bytes);
+    EXPECT_GT(bytes, limit - 2 * files::segment_bytes);
     EXPECT_EQ(manifest_of(*published.all.find(id_of(0))).frames(), 3U) << "the small one has all";
     const v1::Publication large = manifest_of(*published.all.find(id_of(1)));
     EXPECT_EQ(large.frames() + large.left_frames(), 40U);
