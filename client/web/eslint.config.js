@@ -6,6 +6,10 @@ export default ts.config(
   js.configs.recommended,
   { files: ['*.mjs'], languageOptions: { globals: { process: 'readonly', console: 'readonly' } } },
   {
+    files: ['fuzz/*.mjs'],
+    languageOptions: { globals: { process: 'readonly', console: 'readonly', performance: 'readonly' } },
+  },
+  {
     files: ['bench/*.mjs'],
     languageOptions: { globals: { process: 'readonly', console: 'readonly', window: 'readonly' } },
   },

@@ -24,8 +24,10 @@ inline constexpr std::string_view manifest_name = "manifest.json";
 inline constexpr std::string_view segment_magic = "Meniscus segment\n";
 inline constexpr std::uint32_t segment_version = 1;
 inline constexpr std::string_view segment_extension = ".segment";
-/// Most bytes of a manifest: 200,000 segments, of which a session makes one a second.
+/// Most bytes of a manifest that a reader takes.
 inline constexpr std::size_t max_manifest_bytes = std::size_t{64} << 20;
+/// Most segments that a writer lists, with which the manifest stays below that. A session makes one a second: 47 hours.
+inline constexpr std::size_t max_segments = 170'000;
 /// Most bytes of a segment, which protobuf's streams count in 31 bits.
 inline constexpr std::size_t max_segment_bytes = (std::size_t{1} << 31) - 1;
 /// A frame is shown this long, in seconds, where no clock has run while it was made.

@@ -6,7 +6,6 @@
 
 #include <utility>
 
-#include "files/publication_format.hpp"
 #include "meniscus/sha256.hpp"
 
 namespace meniscus::files {
@@ -24,9 +23,7 @@ void append_length(std::size_t length, std::string& bytes) {
 }  // namespace
 
 bool SegmentFile::has_room_for(std::size_t message_bytes) const noexcept {
-    // The index and the lengths are far smaller than the room that is left.
-    constexpr std::size_t most = max_segment_bytes - (std::size_t{1} << 28);
-    return message_bytes <= most && messages_.size() <= most - message_bytes;
+    return message_bytes <= most_bytes && messages_.size() <= most_bytes - message_bytes;
 }
 
 void SegmentFile::begin_frame(std::uint64_t index, double simulation_time) {
@@ -41,6 +38,11 @@ void SegmentFile::add(std::string_view message) {
     messages_ += message;
     v1::SegmentFrame& entry = *begin_.mutable_frames(begin_.frames_size() - 1);
     entry.set_bytes(messages_.size() - entry.place());
+}
+
+void SegmentFile::take_back() {
+    messages_.resize(begin_.frames(begin_.frames_size() - 1).place());
+    begin_.mutable_frames()->RemoveLast();
 }
 
 SegmentFile::Built SegmentFile::build() {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "files/publication_format.hpp"
 #include "meniscus/v1/publication.pb.h"
 
 namespace meniscus::files {
@@ -14,11 +15,16 @@ namespace meniscus::files {
 /// the others whole or as differences to the frame before.
 class SegmentFile {
 public:
+    /// Most bytes of the messages. The index and the lengths are far smaller than the room that this leaves.
+    static constexpr std::size_t most_bytes = max_segment_bytes - (std::size_t{1} << 28);
+
     /// Whether this message still fits, beside the index.
     bool has_room_for(std::size_t message_bytes) const noexcept;
     /// The messages that follow are this frame's. index: greater than that of the frame before.
     void begin_frame(std::uint64_t index, double simulation_time);
     void add(std::string_view message);
+    /// The newest frame goes, of which messages may be missing.
+    void take_back();
 
     bool empty() const noexcept { return begin_.frames_size() == 0; }
     /// Bytes of the messages.

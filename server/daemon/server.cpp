@@ -288,7 +288,7 @@ Server::Impl::Impl(const ServerOptions& options)
       refusals_(metrics_),
       server_service_(access_.authorizer(), refusals_, backend_, threads_or_processors(options.backend.threads),
                       limits_, publications_ != nullptr),
-      session_service_(registry_, access_.authorizer(), refusals_),
+      session_service_(registry_, publications_.get(), access_.authorizer(), refusals_),
       surface_service_(registry_, access_.authorizer(), refusals_, streams_, receivers_),
       recording_service_(recording_reads_.get(), access_.authorizer(), refusals_, *metrics_, receivers_),
       port_(options.listen, {.all = shares_.grpc, .for_each_peer = options.limits.connections_per_peer},

@@ -1,12 +1,17 @@
 #include "publishing/publication.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <optional>
 #include <ranges>
 #include <utility>
 
 #include "conversion/settings_conversion.hpp"
 #include "files/publication_format.hpp"
+#include "files/publication_pace.hpp"
 #include "files/publication_window.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/seconds.hpp"
 #include "meniscus/sha256.hpp"
 
@@ -38,9 +43,14 @@ v1::MeshAttribute without_coding(v1::MeshAttribute attribute) {
 
 }  // namespace
 
-Publication::Publication(std::string owner, const Settings& settings, std::optional<double> keep_seconds,
+Publication::Publication(std::string owner, const Settings& settings, const PublishingOptions& options,
                          std::shared_ptr<PublishingCounters> counters)
-    : owner_(std::move(owner)), settings_(settings), keep_seconds_(keep_seconds), counters_(std::move(counters)) {
+    : owner_(std::move(owner)),
+      settings_(settings),
+      keep_seconds_(options.keep.count() != 0 ? std::optional(seconds_of(options.keep)) : std::nullopt),
+      most_frame_bytes_(options.limit != 0 ? std::min(options.limit, files::SegmentFile::most_bytes)
+                                           : files::SegmentFile::most_bytes),
+      counters_(std::move(counters)) {
     *manifest_.mutable_settings() = conversion::to_wire(settings_);
 }
 
@@ -72,20 +82,22 @@ void Publication::add(std::uint64_t turn, const EncodedFrame& frame, Clock::time
         open_ = {};  // it may have half a frame
         throw;
     }
-    if (!open_.empty() && (open_.bytes() >= segment_bytes || now - opened_at_ >= segment_time)) end_segment(now);
+    if (!open_.empty() && (open_.bytes() >= files::segment_bytes || now - opened_at_ >= files::segment_time))
+        end_segment(now);
 }
 
 void Publication::append(const EncodedFrame& frame, Clock::time_point now) {
     static const WatchOptions form{.format = {}, .spray = true};
     if (!open_.empty() && (open_run_ != frame.run_id || open_.last_index() >= frame.index)) end_segment(now);
     FrameUpdate update = update_mesh(frame, form, open_.empty() ? nullptr : &base_);
-    if (!open_.empty() && !open_.has_room_for(update.bytes)) {
+    if (!open_.empty() && open_.bytes() + update.bytes > most_frame_bytes_) {
         end_segment(now);
         update = update_mesh(frame, form, nullptr);
     }
-    if (!open_.has_room_for(update.bytes)) {
+    if (update.bytes > most_frame_bytes_) {
         ++counters_->left_out;
-        return;
+        throw LimitExceeded(
+            fmt::format("it has {} bytes; --publish-limit has room for {}", update.bytes, most_frame_bytes_));
     }
     if (open_.empty()) {
         open_run_ = frame.run_id;
@@ -95,9 +107,7 @@ void Publication::append(const EncodedFrame& frame, Clock::time_point now) {
     open_.begin_frame(frame.index, frame.simulation_time);
     for (const SharedMessage& message : update.messages) open_.add(*message);
     base_ = std::move(update.result);
-    // A pause of the simulator is not one of the viewers.
-    open_seconds_ +=
-        last_at_ ? std::min(seconds_of(now - *last_at_), seconds_of(segment_time)) : files::published_frame_seconds;
+    open_seconds_ += files::shown_seconds(last_at_ ? std::optional(now - *last_at_) : std::nullopt);
     last_at_ = now;
     if (frame.attributes.empty()) return;
     const std::lock_guard lock(mutex_);
@@ -115,10 +125,9 @@ void Publication::end_segment(Clock::time_point now) {
     bytes_ += file->bytes.size();
     segments_.push_back({.entry = std::move(built.entry), .file = std::move(file)});
     change_manifest();
-    if (!keep_seconds_) return;
     const auto listed = std::ranges::subrange(std::ranges::find_if(segments_, &Segment::is_listed), segments_.end());
     const std::size_t old =
-        files::segments_beyond(listed, *keep_seconds_, [](const Segment& segment) { return segment.entry.seconds(); });
+        files::segments_beyond(listed, keep_seconds_, [](const Segment& segment) { return segment.entry.seconds(); });
     for (Segment& segment : listed | std::views::take(old)) leave(segment, now);
 }
 
@@ -136,7 +145,7 @@ void Publication::end(std::uint64_t turn, Clock::time_point now) {
 
 void Publication::tidy(Clock::time_point now) {
     const std::lock_guard writing(writing_);
-    if (!open_.empty() && now - opened_at_ >= segment_time) end_segment(now);
+    if (!open_.empty() && now - opened_at_ >= files::segment_time) end_segment(now);
     const std::lock_guard lock(mutex_);
     while (!segments_.empty() && segments_.front().left_at &&
            now - *segments_.front().left_at >= files::readers_delay) {

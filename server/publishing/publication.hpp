@@ -16,6 +16,7 @@
 #include "meniscus/settings.hpp"
 #include "meniscus/v1/publication.pb.h"
 #include "meniscus/v1/session_service.pb.h"
+#include "publishing/publishing_options.hpp"
 #include "sessions/sending/encoded_frame.hpp"
 #include "sessions/watching/mesh_update.hpp"
 
@@ -51,12 +52,7 @@ class Publication {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// A segment ends this long after its first frame, or after segment_bytes, whichever comes first.
-    static constexpr Clock::duration segment_time = std::chrono::seconds(1);
-    static constexpr std::size_t segment_bytes = std::size_t{1} << 20;
-
-    /// keep_seconds: of the newest frames; none: all.
-    Publication(std::string owner, const Settings& settings, std::optional<double> keep_seconds,
+    Publication(std::string owner, const Settings& settings, const PublishingOptions& options,
                 std::shared_ptr<PublishingCounters> counters);
 
     const std::string& owner() const noexcept { return owner_; }
@@ -66,7 +62,8 @@ public:
 
     /// A session of this owner and these settings publishes here from now on. Returns its turn.
     std::uint64_t begin(const v1::SessionDescription& description);
-    /// A frame of rising index within its run; one that was published before its session began is passed over.
+    /// A frame of rising index within its run; one that was published before its session began is passed over. Throws
+    /// LimitExceeded, before anything of it is copied, for one that has no room by itself.
     void add(std::uint64_t turn, const EncodedFrame& frame, Clock::time_point now);
     /// No other frame comes.
     void end(std::uint64_t turn, Clock::time_point now);
@@ -116,7 +113,8 @@ private:
 
     const std::string owner_;
     const Settings settings_;
-    const std::optional<double> keep_seconds_;
+    const std::optional<double> keep_seconds_;  ///< of the newest frames; none: all
+    const std::size_t most_frame_bytes_;
     const std::shared_ptr<PublishingCounters> counters_;
 
     std::mutex writing_;  ///< for what follows

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <exception>
 #include <iterator>
+#include <map>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "files/publication_window.hpp"
-#include "meniscus/seconds.hpp"
 #include "process/call_log.hpp"
 #include "process/log.hpp"
 
@@ -84,12 +84,23 @@ std::shared_ptr<SessionObserver> Publications::observe(const SessionIdentity& id
     const auto found = entries_.find(identity.id);
     std::shared_ptr<Publication> publication = found != entries_.end() ? found->second : nullptr;
     if (!publication || publication->owner() != identity.owner || publication->settings() != settings) {
-        publication = std::make_shared<Publication>(
-            identity.owner, settings,
-            options_.keep.count() != 0 ? std::optional(seconds_of(options_.keep)) : std::nullopt, counters_);
+        publication = std::make_shared<Publication>(identity.owner, settings, options_, counters_);
         entries_.insert_or_assign(identity.id, publication);
     }
     return std::make_shared<SessionPublication>(*this, publication, identity);
+}
+
+bool Publications::remove(const std::string& session_id, const std::function<bool(const std::string& owner)>& may) {
+    std::shared_ptr<Publication> removed;  // which goes without the lock
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = entries_.find(session_id);
+        if (found == entries_.end() || !may(found->second->owner())) return false;
+        removed = std::move(found->second);
+        entries_.erase(found);
+    }
+    call_log.write({.session = session_id}, "is not published any more: its publication was deleted");
+    return true;
 }
 
 std::shared_ptr<const Publication> Publications::find(std::string_view session_id) const {
@@ -108,24 +119,27 @@ void Publications::make_room() {
     const std::lock_guard lock(mutex_);
     struct Held {
         std::size_t bytes;
+        std::size_t* of_owner;               ///< of all of its owner
         Publication::Clock::duration ended;  ///< -1: its session lives
         Publication* publication;
-        auto goes_first() const { return std::tuple(bytes != 0, ended, bytes); }
+        auto goes_first() const { return std::tuple(*of_owner, bytes != 0, ended, bytes); }
     };
     const auto now = Publication::Clock::now();
     std::vector<Held> held;
+    std::map<std::string_view, std::size_t> of_owners;
     std::size_t all = 0;
     for (const auto& [id, publication] : entries_) {
-        held.push_back({publication->bytes(), publication->ended_for(now).value_or(Publication::Clock::duration(-1)),
-                        publication.get()});
+        held.push_back({publication->bytes(), &of_owners[publication->owner()],
+                        publication->ended_for(now).value_or(Publication::Clock::duration(-1)), publication.get()});
+        *held.back().of_owner += held.back().bytes;
         all += held.back().bytes;
     }
     while (all > options_.limit) {
         Held& from = *std::ranges::max_element(held, {}, &Held::goes_first);
         from.publication->drop_oldest();
-        all -= from.bytes;
-        from.bytes = from.publication->bytes();
-        all += from.bytes;
+        const std::size_t before = std::exchange(from.bytes, from.publication->bytes());
+        *from.of_owner += from.bytes - before;
+        all += from.bytes - before;
     }
 }
 
@@ -149,20 +163,32 @@ void Publications::tidy(Publication::Clock::time_point now) {
 }
 
 void Publications::forget_ended(Publication::Clock::time_point now) {
-    std::vector<std::pair<Publication::Clock::duration, Entries::iterator>> ended;
+    struct Ended {
+        Publication::Clock::duration time;
+        Entries::iterator entry;
+        std::size_t* of_owner;  ///< how many its owner has
+    };
+    std::vector<Ended> ended;
+    std::map<std::string, std::size_t> of_owners;
     for (auto entry = entries_.begin(); entry != entries_.end();) {
         const auto time = entry->second->ended_for(now);
         // Readers look at the manifest once more, to see the end.
         const bool is_over = time && (options_.keep.count() != 0 ? *time >= std::max<Publication::Clock::duration>(
                                                                                 options_.keep, files::readers_delay)
                                                                  : entry->second->bytes() == 0);
-        if (time && !is_over) ended.emplace_back(*time, entry);
+        if (time && !is_over) {
+            ended.push_back({*time, entry, &of_owners[entry->second->owner()]});
+            ++*ended.back().of_owner;
+        }
         entry = is_over ? entries_.erase(entry) : std::next(entry);
     }
-    if (ended.size() <= most_ended_) return;
-    std::ranges::sort(ended, std::ranges::greater(), [](const auto& each) { return each.first; });
-    ended.resize(ended.size() - most_ended_);
-    for (const auto& [time, entry] : ended) entries_.erase(entry);
+    while (ended.size() > most_ended_) {
+        const auto goes =
+            std::ranges::max_element(ended, {}, [](const Ended& each) { return std::pair(*each.of_owner, each.time); });
+        --*goes->of_owner;
+        entries_.erase(goes->entry);
+        ended.erase(goes);
+    }
 }
 
 }  // namespace meniscus::server

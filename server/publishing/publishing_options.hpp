@@ -28,8 +28,8 @@ struct PublishingOptions {
                .range = {.most = 1e9},
                .argument = "SECONDS"});
         visit("publish_limit", self.limit,
-              {.help = "Bytes of memory for all publications, as 2G; 0: no limit. Beyond it those of sessions that "
-                       "have ended lose their oldest frames, then the largest one",
+              {.help = "Bytes of memory for all publications, as 2G; 0: no limit. Beyond it the owner that holds most "
+                       "loses the oldest frames, of sessions that have ended first, then of the largest",
                .unit = "bytes",
                .argument = "BYTES"});
     }

@@ -1,11 +1,12 @@
-// All frames of publications in Chromium against the meshes that were published: `node frame_hashes.mjs MESHES URL...`. MESHES: a
-// folder of frame_000000.ply ..., as `meniscus convert RECORDING -o MESHES` writes them of the source; URL: of a page that `meniscus
-// publish --page` or `--single-file` has made of it. Each frame is shown, in order and then at random places, and saved; its
-// triangles must be those of the file. Leaves with 1 where they are not.
+// All frames of publications in a browser against the meshes that were published: `node frame_hashes.mjs [--firefox] MESHES URL...`.
+// MESHES: a folder of frame_000000.ply ..., as `meniscus convert RECORDING -o MESHES` or `meniscus reconstruct` writes them of the
+// source; URL: of a page that `meniscus publish --page` or `--single-file` has made of it. Each frame is shown, in order and then at
+// random places, and saved; its triangles must be those of the file. In Chromium, or in Firefox, on a display: `xvfb-run -a node
+// frame_hashes.mjs --firefox ...`. Leaves with 1 where a frame differs.
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { launch, openPage } from './support/browser.mjs';
-import { save } from './support/files.mjs';
+import { launch, launchFirefox, openPage } from './support/browser.mjs';
+import { handed, save } from './support/files.mjs';
 import { hashOfPly } from './support/mesh_hash.mjs';
 
 const randomSeeks = 40;
@@ -19,6 +20,10 @@ function* places(count) {
   }
 }
 
+const args = process.argv.slice(2);
+const inFirefox = args[0] === '--firefox';
+const [folder, ...urls] = inFirefox ? args.slice(1) : args;
+
 async function differences(browser, url, expected) {
   const page = await openPage(browser);
   await page.goto(`${url}#position=0`);
@@ -27,16 +32,16 @@ async function differences(browser, url, expected) {
   for (const place of places(expected.length)) {
     await page.fill('#scrub', String(place));
     await page.waitForFunction((frame) => document.getElementById('view').dataset.frame === frame, String(place));
-    if (hashOfPly((await save(page, '#ply')).bytes) !== expected[place]) found.push(place);
+    const saved = inFirefox ? await handed(page, '#ply') : (await save(page, '#ply')).bytes;
+    if (hashOfPly(saved) !== expected[place]) found.push(place);
   }
   await page.context().close();
   return found;
 }
 
-const [folder, ...urls] = process.argv.slice(2);
 const files = readdirSync(folder).sort();
 const expected = files.map((name) => hashOfPly(readFileSync(join(folder, name))));
-const browser = await launch();
+const browser = await (inFirefox ? launchFirefox() : launch());
 try {
   for (const url of urls) {
     const found = await differences(browser, url, expected);

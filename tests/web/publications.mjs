@@ -1,5 +1,5 @@
 import assert from 'node:assert/strict';
-import { cpSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdtempSync, readdirSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, afterEach, before, describe, it } from 'node:test';
@@ -163,6 +163,12 @@ describe('a publication', { skip: missing }, () => {
       }, by);
     await grows(10);
     await first.kill();
+    const published = JSON.parse(readFileSync(join(to, 'manifest.json'), 'utf8')).segments;
+    // A host that has lost its manifest for a while.
+    renameSync(join(to, 'manifest.json'), join(to, 'away.json'));
+    await says(page, /There is no manifest\.json/);
+    renameSync(join(to, 'away.json'), join(to, 'manifest.json'));
+    await state(page, 'live');
     const second = await startPublisher(server, simulator.session, to);
     await grows(60);
     await second.kill();
@@ -174,6 +180,7 @@ describe('a publication', { skip: missing }, () => {
     );
     const { segments, live } = JSON.parse(readFileSync(join(to, 'manifest.json'), 'utf8'));
     assert.equal(live, true);
+    assert.deepEqual(segments.slice(0, published.length), published, 'what was published stays');
     for (let i = 1; i < segments.length; ++i)
       assert.ok(Number(segments[i].first_frame) > Number(segments[i - 1].last_frame), 'no frame comes twice');
   });
@@ -226,6 +233,8 @@ describe('a publication', { skip: missing }, () => {
     const backward = shown.filter((frame, i) => i > 0 && frame < shown[i - 1]);
     assert.equal(backward.length, 1, `once, with the second simulator: ${shown.join()}`);
     await screenshot(page, 'publication-of-the-server');
+    await run(['sessions', '--server', server.address, '--delete', session]);
+    await says(page, /There is no manifest\.json/);
   });
 
   it('is for those who may watch, and asks them for a token', async () => {

@@ -10,20 +10,17 @@
 #include "cli/commands/publish_sources.hpp"
 #include "cli/options/normals_by.hpp"
 #include "cli/surfaces/interrupts.hpp"
-#include "files/publication_format.hpp"
+#include "files/publication_pace.hpp"
 #include "meniscus/client/client.hpp"
 #include "meniscus/client/publication_writer.hpp"
 #include "meniscus/client/session_lookup.hpp"
 #include "meniscus/error.hpp"
-#include "meniscus/seconds.hpp"
 
 namespace meniscus::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Time from a segment's first frame to its end, though no other frame comes.
-constexpr std::chrono::milliseconds longest_segment{1000};
 /// How long an interrupt waits for the last segment.
 constexpr std::chrono::milliseconds longest_end{500};
 
@@ -51,7 +48,7 @@ public:
 
 private:
     std::chrono::milliseconds left() const {
-        return std::chrono::duration_cast<std::chrono::milliseconds>(opened_at_ + longest_segment - Clock::now());
+        return std::chrono::duration_cast<std::chrono::milliseconds>(opened_at_ + files::segment_time - Clock::now());
     }
 
     void take(const client::ReceivedFrame& frame) {
@@ -61,10 +58,9 @@ private:
         goes_on_ = true;
         const Clock::time_point now = Clock::now();
         if (!writer_.is_open()) opened_at_ = now;
-        // A pause of the simulator is not one of the viewers.
-        const double since = last_ ? seconds_of(now - *last_) : files::published_frame_seconds;
+        const double seconds = files::shown_seconds(last_ ? std::optional(now - *last_) : std::nullopt);
         last_ = now;
-        writer_.add(frame, std::min(since, seconds_of(longest_segment)));
+        writer_.add(frame, seconds);
     }
 
     const PublishCommand& command_;

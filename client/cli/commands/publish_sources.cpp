@@ -155,14 +155,16 @@ void publish_particles(const PublishCommand& command) {
     for (const auto& [number, path] : files) {
         if (publisher.has(number)) continue;
         const ParticleInput input(path, how, settings);
+        client::ReceivedFrame frame;
         try {
-            publisher.add(encoder.encode(input.frame(), number,
-                                         command.frame_rate ? static_cast<double>(number) / *command.frame_rate : 0.0));
+            frame = encoder.encode(input.frame(), number,
+                                   command.frame_rate ? static_cast<double>(number) / *command.frame_rate : 0.0);
         } catch (const InvalidInput& error) {
             throw InvalidInput(path.string() + ": " + error.what());
         } catch (const LimitExceeded& error) {
             throw LimitExceeded(path.string() + ": " + error.what());
         }
+        publisher.add(std::move(frame));
     }
     publisher.finish();
 }

@@ -58,7 +58,7 @@ void delete_sessions(const SessionsOptions& options) {
     for (const std::string& session : options.remove) {
         try {
             const std::string id = session_id_of(client, session);
-            client.delete_session(id);
+            client.delete_session(id, {.unpublish = true});
             std::cout << "deleted " << id << '\n';
         } catch (const std::exception& error) {
             failures += (failures.empty() ? "" : "; ") + std::string(error.what());
@@ -94,7 +94,8 @@ void add_sessions(CLI::App& app) {
     CLI::Option* json = command.add_flag("--json", options->json, "As JSON, exact");
     command
         .add_option("--delete", options->remove,
-                    "End these sessions, each named by its id, or by its name if no other session has that")
+                    "End these sessions, each named by its id, or by its name if no other session has that; what they "
+                    "have published goes, too, also that of an id whose session has ended")
         ->type_name("SESSION ...")
         ->excludes(json);
     add_examples(command, {"meniscus sessions --server localhost", "meniscus sessions --server localhost --json",

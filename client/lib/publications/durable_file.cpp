@@ -40,6 +40,15 @@ void write_all(int descriptor, std::string_view bytes, const std::filesystem::pa
     }
 }
 
+/// The names in it.
+void sync_folder_of(const std::filesystem::path& path) {
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (opened.number() < 0) fail(folder, errno);
+    // Some file systems of networks sync no folders.
+    if (::fsync(opened.number()) != 0 && errno != EINVAL && errno != ENOTSUP) fail(folder, errno);
+}
+
 }  // namespace
 
 void write_durably(const std::filesystem::path& path, std::string_view bytes) {
@@ -54,6 +63,7 @@ void write_durably(const std::filesystem::path& path, std::string_view bytes) {
     std::error_code error;
     std::filesystem::rename(beside, path, error);
     if (error) fail(path, error.value());
+    sync_folder_of(path);
 }
 
 std::string read_whole(const std::filesystem::path& path, std::uint64_t most) {

@@ -68,13 +68,17 @@ public:
 
     void add(const ReceivedFrame& frame, double seconds) {
         if (!open_.can_follow(frame)) flush();
-        open_.add(frame, seconds);
+        if (!open_.add(frame, seconds)) {
+            flush();
+            (void)open_.add(frame, seconds);
+        }
         take_attributes(frame);
         if (open_.bytes() >= options_.segment_bytes || open_.seconds() >= options_.segment_seconds) flush();
     }
 
     void flush() {
         if (open_.empty()) return;
+        require_room();
         SegmentBuilder::Built built = open_.build();
         write_durably(folder_ / built.segment.file(), built.bytes);
         info_.frames += built.segment.frames;
@@ -128,11 +132,19 @@ private:
         }
     }
 
+    /// What is to be kept for ever does not leave for want of room in the manifest.
+    void require_room() const {
+        if (options_.keep_seconds || info_.segments.size() < files::max_segments) return;
+        throw LimitExceeded(folder_.string() + ": it has " + std::to_string(files::max_segments) +
+                            " segments, and a manifest lists no more: publish what follows to another folder, or keep "
+                            "the newest seconds alone");
+    }
+
     /// Leaves segments out of the manifest that are older than the seconds that are kept.
     void drop_old() {
         if (!options_.keep_seconds) return;
         const std::size_t first = files::segments_beyond(
-            info_.segments, *options_.keep_seconds, [](const PublishedSegment& segment) { return segment.seconds; });
+            info_.segments, options_.keep_seconds, [](const PublishedSegment& segment) { return segment.seconds; });
         for (std::size_t i = 0; i < first; ++i) {
             const PublishedSegment& segment = info_.segments[i];
             info_.left_frames += segment.frames;

@@ -19,18 +19,25 @@ namespace pb = google::protobuf;
 
 }  // namespace
 
-void SegmentBuilder::add(const ReceivedFrame& frame, double seconds) {
+bool SegmentBuilder::add(const ReceivedFrame& frame, double seconds) {
     file_.begin_frame(frame.index, frame.simulation_time);
-    give_messages(frame, last_ ? &*last_ : nullptr, [&](const pb::MessageLite& message) {
-        const std::string bytes = message.SerializeAsString();
-        if (!file_.has_room_for(bytes.size()))
-            throw LimitExceeded("frame " + std::to_string(frame.index) + " makes a segment of more than " +
-                                std::to_string(file_.bytes()) +
-                                " bytes; one has less than 2^31: take a larger cell size");
-        file_.add(bytes);
-    });
+    try {
+        give_messages(frame, last_ ? &*last_ : nullptr, [&](const pb::MessageLite& message) {
+            const std::string bytes = message.SerializeAsString();
+            if (!file_.has_room_for(bytes.size()))
+                throw LimitExceeded("frame " + std::to_string(frame.index) + " has more than the " +
+                                    std::to_string(files::SegmentFile::most_bytes) +
+                                    " bytes of a segment: take a larger cell size");
+            file_.add(bytes);
+        });
+    } catch (const LimitExceeded&) {
+        file_.take_back();
+        if (file_.empty()) throw;
+        return false;
+    }
     seconds_ += seconds;
     last_ = frame;
+    return true;
 }
 
 bool SegmentBuilder::can_follow(const ReceivedFrame& frame) const noexcept {

@@ -15,8 +15,8 @@ namespace meniscus::client {
 /// Collects frames, the first whole and the others as differences, as far as these save bricks.
 class SegmentBuilder {
 public:
-    /// Throws LimitExceeded if the segment would have more bytes than any.
-    void add(const ReceivedFrame& frame, double seconds);
+    /// False: beside the others it has no room, and is not added. Throws LimitExceeded if it has none by itself.
+    bool add(const ReceivedFrame& frame, double seconds);
 
     bool empty() const noexcept { return file_.empty(); }
     std::size_t bytes() const noexcept { return file_.bytes(); }

@@ -106,8 +106,8 @@ std::vector<SessionInfo> Client::sessions(const std::stop_token& stop) {
     return sessions;
 }
 
-void Client::delete_session(const std::string& id, const std::stop_token& stop) {
-    client::delete_session(*impl_->connection(), id, impl_->limits(stop));
+void Client::delete_session(const std::string& id, const DeleteOptions& options, const std::stop_token& stop) {
+    client::delete_session(*impl_->connection(), id, options, impl_->limits(stop));
 }
 
 Session Client::open_session(const Settings& settings, const OpenOptions& options) {

@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds farewell_time{400};
 void delete_own(const Connection& connection, const std::string& id, const MadeSessions& made,
                 const CallLimits& limits) {
     try {
-        if (made.has(session_info(connection, id, limits).created_at)) delete_session(connection, id, limits);
+        if (made.has(session_info(connection, id, limits).created_at)) delete_session(connection, id, {}, limits);
     } catch (const ServerError& error) {
         if (error.code() != ErrorCode::not_found) throw;
     }

@@ -62,9 +62,11 @@ SessionInfo session_info(const Connection& connection, const std::string& id, co
     return from_wire(response.session());
 }
 
-void delete_session(const Connection& connection, const std::string& id, const CallLimits& limits) {
+void delete_session(const Connection& connection, const std::string& id, const DeleteOptions& options,
+                    const CallLimits& limits) {
     v1::DeleteSessionRequest request;
     request.set_id(id);
+    request.set_unpublish(options.unpublish);
     v1::DeleteSessionResponse response;
     call(connection, *connection.sessions, &v1::SessionService::Stub::DeleteSession, id, request, response, limits);
 }

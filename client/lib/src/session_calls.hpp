@@ -15,7 +15,8 @@ namespace meniscus::client {
 v1::CreateSessionResponse create_session(const Connection& connection, const std::string& id, const Settings& settings,
                                          const SessionOptions& options, const CallLimits& limits);
 SessionInfo session_info(const Connection& connection, const std::string& id, const CallLimits& limits);
-void delete_session(const Connection& connection, const std::string& id, const CallLimits& limits);
+void delete_session(const Connection& connection, const std::string& id, const DeleteOptions& options,
+                    const CallLimits& limits);
 
 SessionInfo from_wire(const v1::Session& wire);
 /// Microseconds since 1970.

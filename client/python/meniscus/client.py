@@ -97,9 +97,13 @@ class Client:
         those that there are; ServerError (not_found) for an id that none has. So do the calls below."""
         return session_info(self._raw.session_info(_id_text(session)))
 
-    def delete_session(self, session: AnySession) -> None:
-        """Ends a session, also one that another client made."""
-        self._raw.delete_session(_id_text(session))
+    def delete_session(self, session: AnySession, *, unpublish: bool = False) -> None:
+        """Ends a session, also one that another client made.
+
+        unpublish: what it has published goes with it, at once, also of an id whose session has ended before; otherwise
+        readers have that for some time more.
+        """
+        self._raw.delete_session(_id_text(session), unpublish)
 
     def stream(self, session: AnySession, **options: Any) -> Stream:
         """Opens the stream of a session that is there.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import html
+import http.client
 import io
 import os
 import threading
@@ -231,7 +232,7 @@ def _from_address(address: str) -> Fetch:
         try:
             with opener.open(at, timeout=_SILENCE) as answer:
                 return _bounded(answer.read(most + 1), most, at)
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, http.client.HTTPException) as error:
             raise InvalidInput(f"{at}: cannot be read: {error}") from None
 
     return fetch

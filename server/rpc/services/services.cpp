@@ -30,13 +30,13 @@ ByteService::Begin unary(const Authorizer& authorizer, Refusals& refusals, Actio
     };
 }
 
-template <class Request, class Response>
-UnaryCall::Handle about_session(SessionRegistry& registry,
-                                Response (&handler)(SessionRegistry&, const Caller&, const Request&)) {
-    return [&registry, &handler](UnaryCall& call) {
+/// answer: to a Request of a Caller.
+template <class Request, class Answer>
+UnaryCall::Handle about_session(Answer answer) {
+    return [answer = std::move(answer)](UnaryCall& call) {
         const auto request = call.request<Request>();
         require_same_session(metadata_session_id(call.context()), request.id());
-        call.answer(handler(registry, call.caller(), request));
+        call.answer(answer(call.caller(), request));
     };
 }
 
@@ -52,17 +52,28 @@ ServerServiceImpl::ServerServiceImpl(const Authorizer& authorizer, Refusals& ref
         }));
 }
 
-SessionServiceImpl::SessionServiceImpl(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals)
+SessionServiceImpl::SessionServiceImpl(SessionRegistry& registry, Publications* publications,
+                                       const Authorizer& authorizer, Refusals& refusals)
     : ByteService(v1::SessionService::service_full_name()) {
     const auto add_unary = [&](const char* method, Action action, UnaryCall::Handle handle) {
         add(method, unary(authorizer, refusals, action, std::move(handle)));
     };
-    add_unary("CreateSession", Action::create_session, about_session(registry, create_session));
-    add_unary("GetSession", Action::get_session, about_session(registry, get_session));
+    add_unary("CreateSession", Action::create_session,
+              about_session<v1::CreateSessionRequest>([&registry](const Caller& caller, const auto& request) {
+                  return create_session(registry, caller, request);
+              }));
+    add_unary("GetSession", Action::get_session,
+              about_session<v1::GetSessionRequest>([&registry](const Caller& caller, const auto& request) {
+                  return get_session(registry, caller, request);
+              }));
     add_unary("ListSessions", Action::list_sessions, [&registry](UnaryCall& call) {
         call.answer(list_sessions(registry, call.caller(), call.request<v1::ListSessionsRequest>()));
     });
-    add_unary("DeleteSession", Action::delete_session, about_session(registry, delete_session));
+    add_unary(
+        "DeleteSession", Action::delete_session,
+        about_session<v1::DeleteSessionRequest>([&registry, publications](const Caller& caller, const auto& request) {
+            return delete_session(registry, publications, caller, request);
+        }));
 }
 
 SurfaceServiceImpl::SurfaceServiceImpl(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meniscus/reconstructor.hpp"
+#include "publishing/publications.hpp"
 #include "recording/recording_reads.hpp"
 #include "rpc/calls/active_calls.hpp"
 #include "rpc/calls/byte_service.hpp"
@@ -19,7 +20,9 @@ public:
 
 class SessionServiceImpl final : public ByteService {
 public:
-    SessionServiceImpl(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals);
+    /// publications: null where nothing is published.
+    SessionServiceImpl(SessionRegistry& registry, Publications* publications, const Authorizer& authorizer,
+                       Refusals& refusals);
 };
 
 class SurfaceServiceImpl final : public ByteService {

@@ -5,6 +5,7 @@ import http.server
 import json
 import os
 import re
+import socketserver
 import threading
 
 import meniscus
@@ -103,6 +104,34 @@ def test_a_host_that_leads_to_another_is_not_followed(tmp_path):
         thread.start()
         try:
             with pytest.raises(meniscus.InvalidInput, match="another host, which is not followed"):
+                meniscus.open(f"http://127.0.0.1:{server.server_address[1]}/")
+        finally:
+            server.shutdown()
+            thread.join()
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        b"",
+        b"no HTTP\r\n\r\n",
+        b"HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\nffff\r\n{",
+        b"HTTP/1.1 200 OK\r\nContent-Length: 1000\r\n\r\n{",
+        b"HTTP/1.1 200 OK\r\nContent-Length: 2\r\n\r\n{}",
+    ],
+)
+def test_a_host_that_breaks_off_or_speaks_something_else_is_refused(answer):
+    class Speaker(socketserver.StreamRequestHandler):
+        def handle(self):
+            while self.rfile.readline().strip():
+                pass
+            self.wfile.write(answer)
+
+    with socketserver.TCPServer(("127.0.0.1", 0), Speaker) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        try:
+            with pytest.raises(meniscus.InvalidInput):
                 meniscus.open(f"http://127.0.0.1:{server.server_address[1]}/")
         finally:
             server.shutdown()

@@ -55,7 +55,7 @@ TEST(StoppedCall, OfASilentServerEndsAsCanceled) {
     expect_to_stop("open_session", [&](const auto& stop) { client.open_session(settings(), {.stop = stop}); });
     expect_to_stop("session", [&](const auto& stop) { client.session(id, stop); });
     expect_to_stop("sessions", [&](const auto& stop) { client.sessions(stop); });
-    expect_to_stop("delete_session", [&](const auto& stop) { client.delete_session(id, stop); });
+    expect_to_stop("delete_session", [&](const auto& stop) { client.delete_session(id, {}, stop); });
     expect_to_stop("snapshot", [&](const auto& stop) { client.snapshot(id, {.stop = stop}); });
     expect_to_stop("recordings", [&](const auto& stop) { client.recordings(stop); });
     expect_to_stop("delete_recording", [&](const auto& stop) { client.delete_recording(id, 1, stop); });

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "files/publication_format.hpp"
+#include "files/publication_pace.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/sha256.hpp"
 #include "published_frames.hpp"
 #include "test_frames.hpp"
@@ -28,7 +30,9 @@ protected:
 
     const Clock::time_point start = Clock::now();
     const std::shared_ptr<PublishingCounters> counters = std::make_shared<PublishingCounters>();
-    Publication publication{"ada", settings(), 10.0, counters};
+    static constexpr std::size_t limit = std::size_t{4} << 20;
+    Publication publication{
+        "ada", settings(), {.enabled = true, .keep = std::chrono::seconds(10), .limit = limit}, counters};
     std::uint64_t turn = publication.begin({});
 };
 
@@ -46,9 +50,21 @@ TEST_F(PublicationOfASession, ListsASegmentOnceItHasEndedByTimeOrBytes) {
     add(3, 2.5);
     ASSERT_EQ(manifest().segments_size(), 2) << "with the frame that ends its second";
     EXPECT_EQ(manifest().segments(1).last_frame(), 3U);
-    add(4, 2.6, {std::string(Publication::segment_bytes, 'x')});
+    add(4, 2.6, {std::string(files::segment_bytes, 'x')});
     ASSERT_EQ(manifest().segments_size(), 3) << "a large frame is one by itself";
     EXPECT_EQ(manifest().segments(2).frames(), 1U);
+}
+
+TEST_F(PublicationOfASession, RefusesAFrameThatHasNoRoomByItselfAndKeepsTheOthers) {
+    add(0, 0.0);
+    EXPECT_THROW(add(1, 0.1, {std::string(limit, 'x')}), LimitExceeded);
+    add(2, 0.2);
+    EXPECT_EQ(counters->left_out, 1U);
+    publication.end(turn, time(0.5));
+    const v1::Publication all = manifest();
+    ASSERT_EQ(all.frames(), 2U);
+    EXPECT_EQ(all.segments(all.segments_size() - 1).last_frame(), 2U);
+    EXPECT_EQ(counters->held, all.bytes() + publication.find("manifest.json")->bytes.size()) << "no byte of it is held";
 }
 
 TEST_F(PublicationOfASession, HasSegmentsByTheHashOfTheirBytes) {

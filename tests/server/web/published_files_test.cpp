@@ -198,6 +198,21 @@ TEST_F(PublishedFilesOnAServer, EndWithTheirSessionAndStay) {
     EXPECT_EQ(mesh_sha256(publication.frame(7).mesh()), local_sha256(frames[7]));
 }
 
+TEST_F(PublishedFilesOnAServer, GoAtOnceWithASessionThatIsDeletedWithThem) {
+    running.client.delete_session(id, {.unpublish = true});
+    EXPECT_EQ(ask(http, target_of(id)).status, 404);
+    EXPECT_EQ(ask(http, target_of(id, segment)).status, 404);
+    EXPECT_THROW(running.client.delete_session(id, {.unpublish = true}), client::ServerError) << "nothing is left";
+}
+
+TEST_F(PublishedFilesOnAServer, GoAtOnceAlsoAfterTheirSession) {
+    running.client.delete_session(id);
+    EXPECT_EQ(ask(http, target_of(id)).status, 200);
+    EXPECT_THROW(running.client.delete_session(id), client::ServerError) << "the session has gone";
+    running.client.delete_session(id, {.unpublish = true});
+    EXPECT_EQ(ask(http, target_of(id)).status, 404);
+}
+
 TEST_F(PublishedFilesOnAServer, GoOnInASessionThatIsCreatedAnew) {
     running.client.delete_session(id);
     running.client.create_session(id, settings(), {.publish = true});
@@ -291,6 +306,13 @@ TEST(PublishedFiles, AreForThoseWhoseTokenMaySeeTheSession) {
     ada.delete_session(id);
     EXPECT_EQ(with("token-of-ben-0123456789").status, 404) << "nor when it has ended";
     EXPECT_EQ(with("token-of-eve-0123456789").status, 200);
+    for (const char* const other : {"token-of-ben-0123456789", "token-of-eve-0123456789"}) {
+        client::Client caller(running.server.address(), {.token = other});
+        EXPECT_THROW(caller.delete_session(id, {.unpublish = true}), client::ServerError) << "nor theirs to take away";
+    }
+    EXPECT_EQ(with("token-of-eve-0123456789").status, 200);
+    ada.delete_session(id, {.unpublish = true});
+    EXPECT_EQ(with("token-of-eve-0123456789").status, 404);
 }
 
 /// The refusal's code and words; none if it was taken.

@@ -1,7 +1,7 @@
-// Debian's Chromium, headless, drawing in software.
+// Debian's browsers, drawing in software: Chromium, headless, and Firefox.
 import { existsSync, mkdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { chromium } from 'playwright-core';
+import { chromium, firefox } from 'playwright-core';
 
 const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
 const artifacts = process.env.ARTIFACTS ?? 'artifacts';
@@ -14,6 +14,16 @@ export function launch(...args) {
   return chromium.launch({
     executablePath,
     args: ['--no-sandbox', '--enable-unsafe-swiftshader', '--use-angle=swiftshader', ...args],
+  });
+}
+
+/** On a display, as `xvfb-run -a` gives one: without one it has no WebGL. */
+export function launchFirefox() {
+  return firefox.launch({
+    channel: 'moz-firefox',
+    executablePath: process.env.FIREFOX ?? '/usr/bin/firefox-esr',
+    headless: false,
+    firefoxUserPrefs: { 'webgl.force-enabled': true },
   });
 }
 

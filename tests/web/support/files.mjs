@@ -8,6 +8,31 @@ export async function save(page, button) {
   return { bytes: readFileSync(await download.path()), name: download.suggestedFilename() };
 }
 
+/** The same bytes where the browser does not report its downloads, as Firefox: what the page hands to it. */
+export async function handed(page, button) {
+  const base64 = await page.evaluate(async (selector) => {
+    const { createObjectURL } = URL;
+    const { click } = HTMLAnchorElement.prototype;
+    HTMLAnchorElement.prototype.click = () => undefined;
+    const blob = await new Promise((resolve) => {
+      URL.createObjectURL = (file) => {
+        resolve(file);
+        return createObjectURL(file);
+      };
+      document.querySelector(selector).click();
+    });
+    Object.assign(URL, { createObjectURL });
+    Object.assign(HTMLAnchorElement.prototype, { click });
+    const reader = new FileReader();
+    await new Promise((resolve) => {
+      reader.addEventListener('load', resolve);
+      reader.readAsDataURL(blob);
+    });
+    return reader.result.slice(reader.result.indexOf(',') + 1);
+  }, button);
+  return Buffer.from(base64, 'base64');
+}
+
 /** A PNG's size, and the colors at some places, parts of its width and height. */
 export async function readPng(page, bytes, places) {
   return page.evaluate(

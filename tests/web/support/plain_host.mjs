@@ -15,40 +15,48 @@ const types = {
   '.wasm': 'application/wasm',
 };
 
-/** The rules of hosts, as they document them. under: where a site lies. */
+/** The rules of hosts, as they document them. under: where a site lies; hides: names that are not there. */
 export const hosts = {
   plain: { under: '' },
-  'GitHub Pages': { under: 'repository/', headers: { 'Cache-Control': 'max-age=600' }, compresses: true, tags: true },
+  // Jekyll leaves names out that begin with these characters, or end with that.
+  'GitHub Pages': {
+    under: 'repository/',
+    headers: { 'Cache-Control': 'max-age=600' },
+    compresses: true,
+    tags: true,
+    hides: /(^|\/)[._#]|~$/,
+  },
   Netlify: {
     under: '',
     headers: { 'Cache-Control': 'public,max-age=0,must-revalidate' },
     compresses: true,
     tags: true,
   },
-  // Apache sends no type for an ending that it does not know.
+  // Apache sends no type for an ending that it does not know, an old one none for WebAssembly.
   'a university': {
     under: '~author/',
     headers: { 'Last-Modified': 'Thu, 26 Nov 2026 12:00:00 GMT' },
-    unknownType: undefined,
+    untyped: /\.(segment|wasm)$/,
   },
 };
 
 /** asked: the paths that were asked for. rules: of `hosts`. */
 export async function startHost(folder, rules = hosts.plain) {
-  const { under, headers = {}, compresses = false, tags = false } = rules;
-  const unknownType = 'unknownType' in rules ? rules.unknownType : 'application/octet-stream';
+  const { under, headers = {}, compresses = false, tags = false, hides, untyped } = rules;
   const asked = [];
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url, 'http://h').pathname);
     asked.push(path);
-    const file = join(folder, normalize(path.slice(under.length)), path.endsWith('/') ? 'index.html' : '');
-    if (!path.startsWith(`/${under}`) || !statSync(file, { throwIfNoEntry: false })?.isFile()) {
+    const name = path.slice(1 + under.length);
+    const file = join(folder, normalize(name), path.endsWith('/') ? 'index.html' : '');
+    const isThere = path.startsWith(`/${under}`) && statSync(file, { throwIfNoEntry: false })?.isFile();
+    if (!isThere || hides?.test(name)) {
       response.writeHead(404).end();
       return;
     }
-    const type = types[extname(file)] ?? unknownType;
+    const type = types[extname(file)] ?? 'application/octet-stream';
     let bytes = readFileSync(file);
-    const sent = { ...headers, ...(type ? { 'Content-Type': type } : {}) };
+    const sent = { ...headers, ...(untyped?.test(file) ? {} : { 'Content-Type': type }) };
     if (tags) sent.ETag = `"${createHash('sha1').update(bytes).digest('hex')}"`;
     if (tags && request.headers['if-none-match'] === sent.ETag) {
       response.writeHead(304, sent).end();

@@ -137,10 +137,10 @@ void bind_client(py::module_& module) {
                  }));
              })
         .def("delete_session",
-             [](const Connected& connected, const py::object& given) {
+             [](const Connected& connected, const py::object& given, bool unpublish) {
                  const std::string session = text_of(given, "session");
                  call_client(connected, [&](Client& c, const Stop& stop) {
-                     c.delete_session(client::session_id_of(c, session, stop), stop);
+                     c.delete_session(client::session_id_of(c, session, stop), {.unpublish = unpublish}, stop);
                  });
              })
         .def("stream",

@@ -48,6 +48,16 @@ public:
         manifest_ = std::move(manifest);
         publication_.refresh();
     }
+    /// The name and the size of the file that has the frame of a place; none: the frame is not there.
+    std::optional<std::pair<std::string, std::uint64_t>> segment_of(std::uint64_t place) {
+        const std::lock_guard turn(turn_);
+        std::uint64_t first = publication_.info().left_frames;
+        for (const client::PublishedSegment& segment : publication_.info().segments) {
+            if (place >= first && place - first < segment.frames) return std::pair(segment.file(), segment.bytes);
+            first += segment.frames;
+        }
+        return std::nullopt;
+    }
     /// segment: the bytes of its file.
     client::ReceivedFrame frame(std::uint64_t place, const std::string& segment) {
         const std::lock_guard turn(turn_);
@@ -76,17 +86,6 @@ FrameHandle frame_at(const Handle& publication, std::uint64_t place, const std::
     FrameHandle frame;
     without_lock([&] { frame = handle_of(publication->frame(place, segment)); });
     return frame;
-}
-
-/// The name and the size of the file that has the frame of a place, and the place of its first frame.
-py::object segment_of(const Handle& publication, std::uint64_t place) {
-    const client::PublicationInfo info = publication->info();
-    std::uint64_t first = info.left_frames;
-    for (const client::PublishedSegment& segment : info.segments) {
-        if (place >= first && place - first < segment.frames) return py::make_tuple(segment.file(), segment.bytes);
-        first += segment.frames;
-    }
-    return py::none();
 }
 
 py::dict to_dict(const client::PublicationInfo& info) {
@@ -162,7 +161,8 @@ void bind_publication(py::module_& module) {
         .def("info", [](const Handle& publication) { return to_dict(publication->info()); })
         .def("refresh", [](const Handle& publication,
                            const std::string& manifest) { without_lock([&] { publication->refresh(manifest); }); })
-        .def("segment_of", &segment_of)
+        .def("segment_of",
+             [](const Handle& publication, std::uint64_t place) { return publication->segment_of(place); })
         .def("frame", &frame_at);
     module.def("make_publication_writer", &make_writer);
     py::class_<client::PublicationWriter, Writer>(module, "PublicationWriter", py::module_local())

@@ -120,8 +120,8 @@ export class PublicationView {
       else this.player.grow(publication.manifest.end);
     } catch (error) {
       if (ended.signal.aborted) return;
-      // The frames that are there play on; what is wrong for good shows at the next.
-      if (error instanceof ProtocolError || error instanceof TokenNeeded) {
+      // The frames that are there play on.
+      if (this.player.isAtEnd || error instanceof ProtocolError || error instanceof TokenNeeded) {
         this.fail(error);
         return;
       }
@@ -155,7 +155,10 @@ export class PublicationView {
     }
     try {
       await publication.refresh(ended.signal);
-      if (!ended.signal.aborted) this.player.again();
+      if (ended.signal.aborted) return;
+      this.player.grow(publication.manifest.end);
+      this.player.again();
+      this.lookAgain();
     } catch (error) {
       if (!ended.signal.aborted) this.fail(error);
     }

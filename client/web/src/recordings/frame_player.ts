@@ -58,6 +58,11 @@ export class FramePlayer {
     return this.film !== undefined;
   }
 
+  /** Whether no frame is there yet beyond that which is shown. */
+  get isAtEnd(): boolean {
+    return this.position + 1 >= (this.frames?.length ?? 0);
+  }
+
   /** Shows the frame at a place, the nearest that there is. */
   open(film: Film, position: number): void {
     this.stop();
@@ -134,7 +139,7 @@ export class FramePlayer {
 
   /** Whether no frame follows, now or later. */
   private isLast(film: Film): boolean {
-    return this.position + 1 >= (this.frames?.length ?? 0) && film.after(this.position) === undefined;
+    return this.isAtEnd && film.after(this.position) === undefined;
   }
 
   private show(position: number): void {

@@ -47,7 +47,7 @@ public:
                         const std::stop_token& stop = {});
     SessionInfo session(const std::string& id, const std::stop_token& stop = {});
     std::vector<SessionInfo> sessions(const std::stop_token& stop = {});
-    void delete_session(const std::string& id, const std::stop_token& stop = {});
+    void delete_session(const std::string& id, const DeleteOptions& options = {}, const std::stop_token& stop = {});
 
     /// The session must exist.
     Stream stream(const std::string& session_id, const StreamOptions& options = {});

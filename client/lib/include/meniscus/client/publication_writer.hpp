@@ -41,7 +41,9 @@ public:
     /// Whether that frame, or a later one of its run, has been published before.
     bool has(std::uint64_t run_id, std::uint64_t index) const noexcept;
 
-    /// Adds a frame that is shown for `seconds`. Throws std::runtime_error, naming the file, if writing fails.
+    /// Adds a frame that is shown for `seconds`. Throws std::runtime_error, naming the file, if writing fails;
+    /// LimitExceeded for a frame that is larger than any segment, and where all frames stay and the manifest lists no
+    /// more segments (170,000).
     void add(const ReceivedFrame& frame, double seconds);
     /// Whether frames wait for their segment to end.
     bool is_open() const noexcept;

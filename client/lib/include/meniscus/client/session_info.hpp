@@ -66,6 +66,12 @@ struct SessionOptions {
     bool publish = false;
 };
 
+struct DeleteOptions {
+    /// Whether what the session has published goes with it, at once, also of a session that has ended before. Otherwise
+    /// readers have it for some time more.
+    bool unpublish = false;
+};
+
 struct SessionInfo {
     std::string id;
     std::string owner;  ///< its maker; empty where names are not asked for
