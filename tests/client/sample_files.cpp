@@ -152,7 +152,7 @@ void add_written_files(std::vector<Sample>& out, const TemporaryDirectory& direc
     particles.levels = {0, 3};
     particles.arrays = {{"velocity", ElementType::float32, 3, std::vector<std::byte>(24)},
                         {"id", ElementType::uint32, 1, std::vector<std::byte>(8)}};
-    for (const formats::ParticleFormat format : formats::written_particle_formats)
+    for (const formats::ParticleFormat format : formats::written_particle_formats())
         formats::write_particles(directory / ("p." + std::string(name_of(format))), particles, format);
     formats::TriangleMesh mesh = formats::to_triangles(tetrahedron());
     mesh.attributes = {{"velocity", ElementType::float32, 3, std::vector<std::byte>(48)}};

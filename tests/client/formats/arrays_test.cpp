@@ -80,7 +80,7 @@ TEST(ParticleArrays, OfEveryFormAreReadBackFromEveryFormatThatIsWritten) {
         values_of<std::int32_t>("shift", ElementType::int32, 1, {-7, 2147483647}),
         values_of<std::uint32_t>("id", ElementType::uint32, 1, {7, 4294967295U}),
     };
-    for (const ParticleFormat format : formats::written_particle_formats) {
+    for (const ParticleFormat format : formats::written_particle_formats()) {
         SCOPED_TRACE(name_of(format));
         const auto path = directory / ("p." + std::string(name_of(format)));
         formats::write_particles(path, particles, format);
@@ -97,7 +97,7 @@ TEST(ParticleArrays, AreWrittenOfNoParticles) {
     const TemporaryDirectory directory;
     Particles none;
     none.arrays = {values_of<float>("age", ElementType::float32, 1, {})};
-    for (const ParticleFormat format : formats::written_particle_formats) {
+    for (const ParticleFormat format : formats::written_particle_formats()) {
         const auto path = directory / ("p." + std::string(name_of(format)));
         formats::write_particles(path, none, format);
         EXPECT_EQ(formats::read_particles(path).count(), 0U) << name_of(format);
