@@ -66,7 +66,7 @@ private:
     server::Refusals refusals_{std::make_shared<server::Metrics>()};
     server::ActiveCalls streams_;
     server::ActiveCalls watchers_;
-    server::SessionServiceImpl session_service_{registry_, everyone_, refusals_};
+    server::SessionServiceImpl session_service_{registry_, nullptr, everyone_, refusals_};
     server::SurfaceServiceImpl surface_service_{registry_, everyone_, refusals_, streams_, watchers_};
     std::unique_ptr<grpc::Server> grpc_;
     std::string address_;
