@@ -16,19 +16,11 @@
 namespace meniscus::text_options {
 namespace {
 
-template <class Whole>
-std::from_chars_result read(const char* first, const char* last, Whole& value) {
-    return std::from_chars(first, last, value);
-}
-std::from_chars_result read(const char* first, const char* last, double& value) {
-    return read_number(first, last, value);
-}
-
 /// Whatever the locale. The whole text must be the number.
 template <class Number>
 bool is_number(std::string_view text, Number& value) {
     const char* const end = text.data() + text.size();
-    const auto [stopped_at, error] = read(text.data(), end, value);
+    const auto [stopped_at, error] = read_number(text.data(), end, value);
     return error == std::errc() && stopped_at == end;
 }
 

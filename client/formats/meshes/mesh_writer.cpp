@@ -3,7 +3,6 @@
 #include <bit>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "formats/bytes/atomic_file.hpp"
@@ -15,14 +14,6 @@ namespace meniscus::formats {
 namespace {
 
 constexpr std::size_t flush_bytes = std::size_t{1} << 20;
-
-template <class T>
-void append(std::string& out, T value) {
-    if constexpr (std::is_floating_point_v<T>)
-        append_shortest(out, value);
-    else
-        out += std::to_string(value);
-}
 
 /// Numbers of a binary file, as they lie in memory.
 template <class Numbers>
@@ -164,16 +155,16 @@ void write_obj_of(const std::filesystem::path& path, const AnyMesh& mesh) {
         for (const double x : place_of(mesh, i)) {
             out += ' ';
             if (view.wide)
-                append(out, x);
+                append_shortest(out, x);
             else
-                append(out, static_cast<float>(x));
+                append_shortest(out, static_cast<float>(x));
         }
         out += '\n';
         flush(file, out, flush_bytes);
     }
     for (const Normal& normal : view.normals) {
         out += "vn";
-        for (const float x : normal) append(out += ' ', x);
+        for (const float x : normal) append_shortest(out += ' ', x);
         out += '\n';
         flush(file, out, flush_bytes);
     }
@@ -183,8 +174,8 @@ void write_obj_of(const std::filesystem::path& path, const AnyMesh& mesh) {
             for (std::size_t i = run.first; i < run.end; ++i) {
                 out += 'f';
                 for (const std::uint32_t v : faces[i]) {
-                    append(out += ' ', std::uint64_t{v} + 1);
-                    if (!view.normals.empty()) append(out += "//", std::uint64_t{v} + 1);
+                    append_shortest(out += ' ', std::uint64_t{v} + 1);
+                    if (!view.normals.empty()) append_shortest(out += "//", std::uint64_t{v} + 1);
                 }
                 out += '\n';
                 flush(file, out, flush_bytes);

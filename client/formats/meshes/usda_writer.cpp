@@ -6,7 +6,6 @@
 #include <cstring>
 #include <string>
 #include <system_error>
-#include <type_traits>
 
 #include "files/centered_positions.hpp"
 #include "formats/bytes/atomic_file.hpp"
@@ -19,21 +18,14 @@ namespace {
 constexpr std::string_view translated = "    uniform token[] xformOpOrder = [\"xformOp:translate\"]\n";
 constexpr std::size_t flush_bytes = std::size_t{1} << 20;
 
-/// USD spells what is not finite as Python does, and as append_shortest().
-template <class Number>
-void append(std::string& out, Number value) {
-    if constexpr (std::is_floating_point_v<Number>)
-        append_shortest(out, value);
-    else
-        out += std::to_string(value);
-}
+// USD spells numbers that are not finite as Python does, and as append_shortest().
 
 template <class Number>
 void append_tuple(std::string& out, const Number* values, std::size_t components) {
     if (components > 1) out += '(';
     for (std::size_t i = 0; i < components; ++i) {
         if (i != 0) out += ", ";
-        append(out, values[i]);
+        append_shortest(out, values[i]);
     }
     if (components > 1) out += ')';
 }
@@ -75,7 +67,7 @@ public:
         if (time_)
             for (const char* name : {"startTimeCode", "endTimeCode"}) {
                 out_ += "    " + std::string(name) + " = ";
-                append(out_, *time_);
+                append_shortest(out_, *time_);
                 out_ += '\n';
             }
         out_ += ")\n\ndef Mesh \"surface\"\n{\n    uniform token subdivisionScheme = \"none\"\n";
@@ -84,7 +76,7 @@ public:
         array("int[]", "faceVertexIndices", mesh.triangles.size(), {}, [&](std::size_t i) {
             for (std::size_t corner = 0; corner < 3; ++corner) {
                 if (corner != 0) out_ += ", ";
-                append(out_, mesh.triangles[i][corner]);
+                append_shortest(out_, mesh.triangles[i][corner]);
             }
         });
         if (mesh.normals.size() == mesh.positions.size())
@@ -108,7 +100,7 @@ private:
         if (!mesh.wide) return write(mesh.positions);
         const files::CenteredPositions centered(mesh.positions);
         out_ += time_ ? "    double3 xformOp:translate.timeSamples = {\n        " : "    double3 xformOp:translate = ";
-        if (time_) append(out_, *time_);
+        if (time_) append_shortest(out_, *time_);
         if (time_) out_ += ": ";
         append_tuple(out_, centered.middle.data(), 3);
         out_ += (time_ ? ",\n    }\n" : "\n") + std::string(translated);
@@ -121,7 +113,7 @@ private:
         out_ += "    " + type + " " + name;
         if (time_) {
             out_ += ".timeSamples = {\n        ";
-            append(out_, *time_);
+            append_shortest(out_, *time_);
             out_ += ": [";
         } else {
             out_ += " = [";
@@ -162,7 +154,7 @@ private:
                     std::array<float, 4> shares{};
                     for (std::size_t c = 0; c < values.components; ++c) {
                         const auto value = std::to_integer<unsigned>(values.data[i * values.components + c]);
-                        if (values.components == 1) return append(out_, value);
+                        if (values.components == 1) return append_shortest(out_, value);
                         shares[c] = static_cast<float>(value) / 255.0F;
                     }
                     append_tuple(out_, shares.data(), values.components);
@@ -200,9 +192,9 @@ void write_usda_clips(const std::filesystem::path& path, std::span<const UsdaCli
     std::string out = "#usda 1.0\n(\n    defaultPrim = \"surface\"\n";
     if (!clips.empty()) {
         out += "    startTimeCode = ";
-        append(out, clips.front().time);
+        append_shortest(out, clips.front().time);
         out += "\n    endTimeCode = ";
-        append(out, clips.back().time);
+        append_shortest(out, clips.back().time);
         out += '\n';
     }
     out +=

@@ -18,8 +18,8 @@ struct PackedHash {
     }
 
 private:
-    /// All bits of the word mixed, which the key made another one at each index. (Steele, Lea, Flood 2014: Fast
-    /// splittable pseudorandom number generators, SplitMix64: its sequence of states and its finalizer)
+    /// Mixes all bits of the word with a state of SplitMix64, one for each key, by its finalizer. (Steele, Lea, Flood
+    /// 2014: Fast splittable pseudorandom number generators)
     MENISCUS_HD static std::uint64_t mixed(std::uint64_t word, std::uint64_t key) {
         return finalized(word ^ (key + 1) * 0x9E3779B97F4A7C15);
     }

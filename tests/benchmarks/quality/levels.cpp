@@ -1,10 +1,10 @@
 #include "quality/levels.hpp"
-#include "processor_time.hpp"
 
 #include <algorithm>
 
 #include "backend_options.hpp"
 #include "compare/comparison.hpp"
+#include "processor_time.hpp"
 #include "warm_runs.hpp"
 
 namespace meniscus::benchmarks::quality {

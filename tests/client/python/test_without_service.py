@@ -21,7 +21,8 @@ pytestmark = pytest.mark.skipif(meniscusd.program != "", reason="this build has 
         lambda: meniscus.reconstruct([[0, 0, 0]], particle_radius).save("a.bricks"),
     ],
 )
-def test_what_needs_it_says_how_the_package_was_built(call):
+def test_what_needs_it_says_how_the_package_was_built(call, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     with pytest.raises(meniscus.Error, match="without the service: build it without -DMENISCUS_SERVICE=OFF"):
         call()
 

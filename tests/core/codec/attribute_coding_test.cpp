@@ -14,6 +14,7 @@
 #include "support/float_bits.hpp"
 #include "support/mesh_attributes.hpp"
 #include "support/particles.hpp"
+#include "support/refusal.hpp"
 
 namespace meniscus {
 namespace {
@@ -72,15 +73,6 @@ std::vector<float> rounded(Mesh mesh, int bits) {
     const AttributeWish wish{"value", bits};
     round_attributes(mesh, {&wish, 1});
     return test::numbers_of<float>(mesh.attributes.at(0));
-}
-
-std::string refusal_of(const auto& attempt) {
-    try {
-        attempt();
-    } catch (const InvalidInput& error) {
-        return error.what();
-    }
-    return {};
 }
 
 template <class Number>
@@ -223,7 +215,7 @@ TEST(CodedAttributes, AreThoseOfTheMeshThatAreWishedForInItsOrder) {
 TEST(CodedAttributes, AreRefusedWithBitsThatNoneHas) {
     for (const int bits : {-1, 17}) {
         const AttributeWish wish{"speed", bits};
-        EXPECT_NE(refusal_of([&] {
+        EXPECT_NE(test::refusal([&] {
                       (void)coded_attributes(sample(), attribute_ranges(sample()), {&wish, 1});
                   }).find("'speed' is wished for with " + std::to_string(bits) + " bits, must be 1 to 16"),
                   std::string::npos);
@@ -304,7 +296,7 @@ TEST(AttributeBricks, AreNotMadeOfAttributesThatTheMeshLacks) {
     const auto refused = [&](const auto& change) {
         CodingOptions other = options;
         change(other.attributes[1]);
-        return refusal_of([&] { (void)brick_content(sample(), 0, other); });
+        return test::refusal([&] { (void)brick_content(sample(), 0, other); });
     };
     const std::string none = "no attribute 'velocity'";
     EXPECT_NE(refused([](CodedAttribute& a) { a.name = "pressure"; }).find("no attribute 'pressure'"),
@@ -321,7 +313,7 @@ TEST(AttributeBricks, AreRefusedUnlessTheyAreWhatWasAnnounced) {
     const auto refused = [&](const auto& change) {
         std::vector<CodedAttribute> announced = options.attributes;
         change(announced);
-        return refusal_of([&] { (void)decode_brick(brick, sample().offset_bits, announced); });
+        return test::refusal([&] { (void)decode_brick(brick, sample().offset_bits, announced); });
     };
     EXPECT_EQ(refused([](auto&) {}), "");
     EXPECT_NE(refused([](auto& all) { all.clear(); }).find("has 8 attributes, announced were 0"), std::string::npos);
@@ -340,7 +332,7 @@ TEST(AttributeBricks, AreRefusedUnlessTheyAreWhatWasAnnounced) {
     EXPECT_NE(refused([](auto& all) { all[1].bits = 40; }).find("is to be coded with 40 bits"), std::string::npos);
     EXPECT_NE(refused([](auto& all) { all[0].bits = 2; }).find("in 2 bits"), std::string::npos);
     const EncodedBrick without = encode_brick(sample(), 0);
-    EXPECT_NE(refusal_of([&] {
+    EXPECT_NE(test::refusal([&] {
                   (void)decode_brick(without, sample().offset_bits, options.attributes);
               }).find("has 0 attributes, announced were 8"),
               std::string::npos);
@@ -355,7 +347,7 @@ TEST(AttributeBricks, AreRefusedWithFloatsThatAreNotFinite) {
     options.attributes = {{.name = "speed", .type = ElementType::float32, .components = 1, .bits = 0}};
     bool found = false;
     for (std::size_t b = 0; b < mesh.bricks.size(); ++b)
-        found = found || refusal_of([&] {
+        found = found || test::refusal([&] {
                              (void)decode_brick(encode_brick(mesh, b, options), mesh.offset_bits, options.attributes);
                          }).find("'speed' has a value that is not finite") != std::string::npos;
     EXPECT_TRUE(found);
@@ -366,7 +358,7 @@ TEST(AttributeBricks, AreRefusedOrDecodedToSomeMeshWhenDamaged) {
     const EncodedBrick whole = encode_brick(sample(), sample().bricks.size() - 1, options);
     int refused = 0;
     for (const EncodedBrick& damaged : test::damaged(whole, 300))
-        refused += refusal_of([&] {
+        refused += test::refusal([&] {
                        const DecodedBrick decoded = decode_brick(damaged, sample().offset_bits, options.attributes);
                        ASSERT_EQ(decoded.attributes.size(), options.attributes.size());
                        for (const MeshAttribute& attribute : decoded.attributes)
@@ -386,7 +378,7 @@ TEST(AttributeBricks, AreNotWeldedToOnesOfOtherAttributes) {
     EXPECT_EQ(weld_bricks(bricks, 1.0, sample().offset_bits).attributes.size(), 8U);
     bricks[1].attributes[2].name = "other";
     EXPECT_NE(
-        refusal_of([&] { (void)weld_bricks(bricks, 1.0, sample().offset_bits); }).find("have different attributes"),
+        test::refusal([&] { (void)weld_bricks(bricks, 1.0, sample().offset_bits); }).find("have different attributes"),
         std::string::npos);
 }
 

@@ -7,19 +7,10 @@
 
 #include "meniscus/meniscus.hpp"
 #include "support/particles.hpp"
+#include "support/refusal.hpp"
 
 namespace meniscus {
 namespace {
-
-template <class Call>
-std::string refusal(const Call& call) {
-    try {
-        call();
-    } catch (const InvalidInput& e) {
-        return e.what();
-    }
-    return {};
-}
 
 TEST(Validation, RefusesEverySettingOutOfRangeNamingItsValue) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -105,14 +96,14 @@ TEST(Validation, RefusesEverySettingOutOfRangeNamingItsValue) {
     for (const Case& c : cases) {
         Settings settings = test::default_settings();
         c.change(settings);
-        const std::string message = refusal([&] { Reconstructor reconstructor(settings); });
+        const std::string message = test::refusal([&] { Reconstructor reconstructor(settings); });
         EXPECT_NE(message.find(c.named), std::string::npos) << "expected '" << c.named << "', got '" << message << "'";
     }
-    EXPECT_EQ(refusal([] { validate(test::default_settings()); }), "");
+    EXPECT_EQ(test::refusal([] { validate(test::default_settings()); }), "");
 }
 
 TEST(Validation, RefusesMoreThreadsThanAreOfUse) {
-    const std::string message = refusal([&] {
+    const std::string message = test::refusal([&] {
         Reconstructor reconstructor(test::default_settings(), {Backend::cpu, max_threads + 1, 0});
     });
     EXPECT_NE(message.find("1025"), std::string::npos) << message;
@@ -149,7 +140,7 @@ TEST(Validation, RefusesEveryBadFrameNamingTheParticleAndGoesOn) {
     high_level.particles.levels.assign(good.count(), 0);
     high_level.particles.levels[4] = 4;
     for (const Case& c : cases) {
-        const std::string message = refusal([&] { reconstructor.reconstruct(c.particles.frame(), mesh); });
+        const std::string message = test::refusal([&] { reconstructor.reconstruct(c.particles.frame(), mesh); });
         EXPECT_NE(message.find(c.named), std::string::npos) << "expected '" << c.named << "', got '" << message << "'";
         EXPECT_TRUE(mesh.triangles.empty());
         reconstructor.reconstruct(good.frame(), mesh);
@@ -198,7 +189,7 @@ TEST(Validation, AcceptsTheFarthestPositionAndRefusesTheNext) {
     beyond.add(limit + 1.0F, 0.0F, 0.0F);
     reconstructor.reconstruct(last.frame(), mesh);
     EXPECT_FALSE(mesh.triangles.empty());
-    EXPECT_NE(refusal([&] { reconstructor.reconstruct(beyond.frame(), mesh); }).find("farther from the origin"),
+    EXPECT_NE(test::refusal([&] { reconstructor.reconstruct(beyond.frame(), mesh); }).find("farther from the origin"),
               std::string::npos);
 }
 
@@ -209,15 +200,16 @@ TEST(Validation, RefusesAQuantizationBoxThatIsNotOne) {
     ParticleFrame frame;
     frame.quantized = positions;
     frame.quantization_box = {{0, 0, 0}, {1, -1, 1}};
-    EXPECT_NE(
-        refusal([&] { reconstructor.reconstruct(frame, mesh); }).find("quantization box runs from 0 to -1 along y"),
-        std::string::npos);
+    EXPECT_NE(test::refusal([&] {
+                  reconstructor.reconstruct(frame, mesh);
+              }).find("quantization box runs from 0 to -1 along y"),
+              std::string::npos);
     frame.quantization_box = {{0, 0, 0}, {1, 1e12, 1}};
-    EXPECT_NE(refusal([&] { reconstructor.reconstruct(frame, mesh); }).find("farther from the origin"),
+    EXPECT_NE(test::refusal([&] { reconstructor.reconstruct(frame, mesh); }).find("farther from the origin"),
               std::string::npos);
     // The difference of its corners is no number.
     frame.quantization_box = {{-1.7e308, 0, 0}, {1.7e308, 1, 1}};
-    EXPECT_NE(refusal([&] { reconstructor.reconstruct(frame, mesh); }).find("farther from the origin"),
+    EXPECT_NE(test::refusal([&] { reconstructor.reconstruct(frame, mesh); }).find("farther from the origin"),
               std::string::npos);
     frame.quantization_box = {{0, 0, 0}, {1, 0, 1}};  // flat is fine
     reconstructor.reconstruct(frame, mesh);
@@ -269,7 +261,7 @@ TEST(Validation, SaysWhichRadiusFitsParticlesThatCrowd) {
 
 TEST(Validation, TheCudaBackendSaysWhyItCannotBeUsed) {
     const int no_device = 1000;
-    EXPECT_NE(refusal([&] {
+    EXPECT_NE(test::refusal([&] {
                   Reconstructor reconstructor(test::default_settings(), {Backend::cuda, 1, 0, no_device});
               }).find("CUDA backend cannot be used: "),
               std::string::npos);
@@ -288,13 +280,14 @@ TEST(Validation, TheCpuBackendTakesNoParticlesFromAGpuAndSaysSo) {
     const auto is_named = [](const std::string& message) {
         return message.find("the CPU backend takes no particles from a GPU") != std::string::npos;
     };
-    EXPECT_TRUE(is_named(refusal([&] { static_cast<void>(cpu.reconstruct_on_device(frame)); })));
-    EXPECT_TRUE(is_named(refusal([&] { static_cast<void>(cpu.reconstruct_for_download(frame, mesh)); })));
-    EXPECT_TRUE(is_named(refusal([&] { cpu.reconstruct(frame, mesh); })));
-    EXPECT_NE(
-        refusal([&] { static_cast<void>(cpu.pack_on_device()); }).find("the CPU backend packs no bricks on a GPU"),
-        std::string::npos);
-    EXPECT_NE(refusal([&] {
+    EXPECT_TRUE(is_named(test::refusal([&] { static_cast<void>(cpu.reconstruct_on_device(frame)); })));
+    EXPECT_TRUE(is_named(test::refusal([&] { static_cast<void>(cpu.reconstruct_for_download(frame, mesh)); })));
+    EXPECT_TRUE(is_named(test::refusal([&] { cpu.reconstruct(frame, mesh); })));
+    EXPECT_NE(test::refusal([&] {
+                  static_cast<void>(cpu.pack_on_device());
+              }).find("the CPU backend packs no bricks on a GPU"),
+              std::string::npos);
+    EXPECT_NE(test::refusal([&] {
                   cpu.reconstruct(DeviceParticleFrame{nullptr, 5}, mesh);
               }).find("its positions are null"),
               std::string::npos);
