@@ -137,10 +137,11 @@ def check_check(bench, folder):
     ]
     check(done.returncode == 1 and ways == expected, f"check: {ways}")
 
-    # Told to end, it ends its child, and leaves its results.
+    # Told to end, it ends its child, and leaves its results, also if it is told once more while it packs them.
     began = folder / "began"
     os.mkfifo(began)
     program(beside, "cuda_test", f"echo $$ >{began}\nexec sleep 600\n")
+    program(beside, "tar", f'kill -TERM $PPID\nexec {shutil.which("tar")} "$@"\n')
     words.append(folder / "ended")
     with subprocess.Popen(words, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as running:
         process = began.read_text().strip()

@@ -158,9 +158,20 @@ describe('a publication that grows', () => {
       firstFrame: 0n,
       lastFrame: 0n,
     }));
-    expect(next({ segments }, 49)).toBe(50);
-    expect(next({ segments }, 20)).toBe(21);
-    expect(next({ segments }, 18)).toBe(40);
-    expect(next({ segments }, 0)).toBe(40);
+    expect(next({ segments }, 49, 0)).toBe(50);
+    expect(next({ segments }, 20, 0.9)).toBe(21);
+    expect(next({ segments }, 18, 0)).toBe(40);
+    expect(next({ segments }, 0, 0)).toBe(40);
+  });
+
+  it('is followed at its pace by a page that takes longer for a frame', () => {
+    const segments = [
+      { sha256: '', bytes: 1, first: 0, frames: 25, seconds: 1, firstFrame: 0n, lastFrame: 24n },
+      { sha256: '', bytes: 1, first: 25, frames: 25, seconds: 1, firstFrame: 25n, lastFrame: 49n },
+    ];
+    expect(next({ segments }, 10, 1)).toBe(12);
+    expect(next({ segments }, 10, 7.5)).toBe(18);
+    expect(next({ segments }, 40, 100)).toBe(49);
+    expect(next({ segments }, 49, 100)).toBe(50);
   });
 });

@@ -119,7 +119,8 @@ private:
             if (entry.is_regular_file()) files.push_back(entry.path());
         std::ranges::sort(files, {}, [](const fs::path& path) { return fs::file_size(path); });
         Command tar{.words = {find_program("tar"), "-czf", fs::absolute(options_.out).string() + ".tar.gz", "-C",
-                              fs::absolute(options_.out).string()}};
+                              fs::absolute(options_.out).string()},
+                    .ends_on_signals = false};
         if (tar.words[0].empty()) throw std::runtime_error("the results stay in " + options_.out + ": there is no tar");
         std::uintmax_t bytes = 0;
         for (const fs::path& file : files) {

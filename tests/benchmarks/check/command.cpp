@@ -52,12 +52,14 @@ std::string last_line_of(const std::string& path) {
     return last;
 }
 
-/// Waits for the child to end, for a signal to this process, or until then. Returns whether the child has ended.
-bool wait_for_end(pid_t child, int& status, std::chrono::steady_clock::time_point until, const sigset_t& awaited) {
+/// Waits for the child to end, for a signal to this process if it counts, or until then. Returns whether the child has
+/// ended.
+bool wait_for_end(pid_t child, int& status, std::chrono::steady_clock::time_point until, const sigset_t& awaited,
+                  bool signals_count) {
     for (;;) {
         if (::waitpid(child, &status, WNOHANG) == child) return true;
         const auto left = until - std::chrono::steady_clock::now();
-        if (asked_to_end || left.count() <= 0) return false;
+        if ((signals_count && asked_to_end) || left.count() <= 0) return false;
         const auto nanoseconds = std::chrono::duration_cast<std::chrono::nanoseconds>(left).count();
         const timespec most{static_cast<time_t>(nanoseconds / 1'000'000'000),
                             static_cast<long>(nanoseconds % 1'000'000'000)};
@@ -109,7 +111,7 @@ CommandEnd run_command(const Command& command, const std::string& log, double se
     int status = 0;
     const auto of_time =
         std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
-    if (!wait_for_end(child, status, begin + of_time, awaited)) {
+    if (!wait_for_end(child, status, begin + of_time, awaited, command.ends_on_signals)) {
         end.is_cut_off = true;
         ::kill(-child, SIGKILL);
         ::waitpid(child, &status, 0);

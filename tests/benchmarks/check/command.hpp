@@ -10,6 +10,7 @@ namespace meniscus::benchmarks {
 struct Command {
     std::vector<std::string> words;                                  ///< the program's path first
     std::vector<std::pair<std::string, std::string>> environment{};  ///< beside that of this process
+    bool ends_on_signals = true;                                     ///< else only its time ends it
 };
 
 struct CommandEnd {
@@ -19,7 +20,7 @@ struct CommandEnd {
     std::string last_line;  ///< of its output
 };
 
-/// Runs it to its end, or ends all of its group once the seconds are up or SIGTERM, SIGINT or SIGHUP has come. Its
+/// Runs it to its end, or ends all of its group once the seconds are up, or SIGTERM, SIGINT or SIGHUP has come. Its
 /// output goes to the file `log`. Throws std::runtime_error if it cannot be run.
 CommandEnd run_command(const Command& command, const std::string& log, double seconds);
 

@@ -173,13 +173,17 @@ function filmOf(publication: Publication): Film {
       const segment = segmentAt(publication.manifest, position);
       return segment && segment.seconds > 0 ? (1000 * segment.seconds) / segment.frames : standardPace;
     },
-    after: (position) => (publication.manifest.live ? next(publication.manifest, position) : undefined),
+    after: (position, paces) => (publication.manifest.live ? next(publication.manifest, position, paces) : undefined),
     read: (position, count, signal) => publication.frames(position, count, signal),
   };
 }
 
-/** The frame after this one of a publication that grows; its newest segment's first where too much is still unshown. */
-export function next({ segments }: Pick<Manifest, 'segments'>, position: number): number {
+/**
+ * The frame after this one of a publication that grows, which is to stay close behind its newest. paces: how many
+ * frames' times have passed while this one was fetched and drawn; as many are left out. Its newest segment's first where
+ * too much is still unshown.
+ */
+export function next({ segments }: Pick<Manifest, 'segments'>, position: number, paces: number): number {
   let seconds = 0;
   for (let i = segments.length - 1; i >= 0; --i) {
     const { first, frames, seconds: all } = segments[i]!;
@@ -189,5 +193,7 @@ export function next({ segments }: Pick<Manifest, 'segments'>, position: number)
     }
     seconds += all;
   }
-  return seconds > furthestBehind ? segments.at(-1)!.first : position + 1;
+  const newest = segments.at(-1)!;
+  if (seconds > furthestBehind) return newest.first;
+  return Math.max(position + 1, Math.min(position + 1 + Math.floor(paces), newest.first + newest.frames - 1));
 }

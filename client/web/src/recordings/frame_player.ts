@@ -19,9 +19,9 @@ export interface Film {
   pace(position: number): number;
   /**
    * The place to go on to from a frame after which more are expected: the next one, or a later one to catch up. None:
-   * the film ends.
+   * the film ends. paces: how often its time on the screen has passed while it was fetched and drawn.
    */
-  after(position: number): number | undefined;
+  after(position: number, paces: number): number | undefined;
   readonly read: ReadFrames;
 }
 
@@ -35,6 +35,7 @@ export class FramePlayer {
   private film: Film | undefined;
   private frames: RecordingFrames | undefined;
   private position = 0;
+  private askedAt = 0;
   private drawnAt = 0;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
@@ -139,12 +140,13 @@ export class FramePlayer {
 
   /** Whether no frame follows, now or later. */
   private isLast(film: Film): boolean {
-    return this.isAtEnd && film.after(this.position) === undefined;
+    return this.isAtEnd && film.after(this.position, 0) === undefined;
   }
 
   private show(position: number): void {
     clearTimeout(this.timer);
     this.position = position;
+    this.askedAt = performance.now();
     if (this.playback.paused) {
       this.playback.moveTo(position);
       this.events.restsAt(position);
@@ -165,7 +167,8 @@ export class FramePlayer {
     const { film, frames } = this;
     if (!film || !frames || this.playback.paused || document.hidden) return;
     if (this.screen.shown?.frame !== frames.at(this.position)) return;
-    let next = film.after(this.position);
+    const pace = film.pace(this.position) / this.playback.speed;
+    let next = film.after(this.position, (this.drawnAt - this.askedAt) / pace);
     if (next === undefined && this.position + 1 < frames.length) next = this.position + 1;
     if (next === undefined) {
       if (this.playback.loops) next = film.first();
@@ -181,7 +184,7 @@ export class FramePlayer {
       () => {
         this.show(to);
       },
-      Math.max(0, this.drawnAt + film.pace(this.position) / this.playback.speed - performance.now()),
+      Math.max(0, this.drawnAt + pace - performance.now()),
     );
   }
 
