@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "sessions/limits/limit_reached.hpp"
@@ -18,14 +19,13 @@ BytesInFlight::BytesInFlight(std::size_t limit, std::uint32_t sessions, std::fun
 std::size_t BytesInFlight::waiting() const {
     const std::lock_guard lock(mutex_);
     return static_cast<std::size_t>(
-        std::ranges::count_if(frames_, [](const FrameInFlight* frame) { return frame->waiter_ != nullptr; }));
+        std::ranges::count_if(frames_, [](const FrameInFlight* frame) { return frame->waits(); }));
 }
 
 bool BytesInFlight::others_wait(const SessionInFlight& session) const {
     const std::lock_guard lock(mutex_);
-    return std::ranges::any_of(frames_, [&](const FrameInFlight* frame) {
-        return frame->waiter_ != nullptr && frame->session_.get() != &session;
-    });
+    return std::ranges::any_of(
+        frames_, [&](const FrameInFlight* frame) { return frame->waits() && frame->session_.get() != &session; });
 }
 
 void BytesInFlight::look_again() {
@@ -182,7 +182,7 @@ void BytesInFlight::forget(FrameInFlight& frame) {
 BytesInFlight::Calls BytesInFlight::grant_waiting() {
     Calls calls;
     const auto try_to_book = [&](FrameInFlight& frame) {
-        if (frame.waiter_ && grant(frame)) calls.push_back(frame.end_to_wait(now_()));
+        if (frame.waits() && grant(frame)) std::ranges::move(frame.end_to_wait(now_()), std::back_inserter(calls));
     };
     if (FrameInFlight* const first = next()) try_to_book(*first);
     for (FrameInFlight* frame : frames_) try_to_book(*frame);
@@ -190,12 +190,14 @@ BytesInFlight::Calls BytesInFlight::grant_waiting() {
 }
 
 void FrameInFlight::begin_to_wait(std::function<void()> waiter, Clock::time_point now) {
-    waiter_ = std::move(waiter);
+    const bool waited_already = waits();
+    waiters_.push_back(std::move(waiter));
+    if (waited_already) return;
     sending_ += now - std::exchange(since_, now);
     if (waited_ >= BytesInFlight::patience && sending_ >= BytesInFlight::patience) waited_ = {};  // it was next
 }
 
-std::function<void()> FrameInFlight::end_to_wait(Clock::time_point now) {
+std::vector<std::function<void()>> FrameInFlight::end_to_wait(Clock::time_point now) {
     const bool was_due = waited_ >= BytesInFlight::patience;
     const Clock::time_point due = due_since();
     waited_ += now - std::exchange(since_, now);
@@ -203,12 +205,12 @@ std::function<void()> FrameInFlight::end_to_wait(Clock::time_point now) {
         due_since_ = due;
         sending_ = {};
     }
-    return std::exchange(waiter_, nullptr);
+    return std::exchange(waiters_, {});
 }
 
 bool FrameInFlight::is_due(Clock::time_point now) const {
     const auto passed = now - since_;
-    return waiter_ ? waited_ + passed >= BytesInFlight::patience
+    return waits() ? waited_ + passed >= BytesInFlight::patience
                    : waited_ >= BytesInFlight::patience && sending_ + passed < BytesInFlight::patience;
 }
 
@@ -217,7 +219,7 @@ FrameInFlight::Clock::time_point FrameInFlight::due_since() const {
 }
 
 bool FrameInFlight::is_slow(Clock::time_point now) const {
-    return !is_due(now) && sending_ + (waiter_ ? Clock::duration{} : now - since_) >= BytesInFlight::patience;
+    return !is_due(now) && sending_ + (waits() ? Clock::duration{} : now - since_) >= BytesInFlight::patience;
 }
 
 FrameInFlight::FrameInFlight(FrameInFlight&& other) noexcept : all_(other.all_), session_(other.session_) {
@@ -229,7 +231,7 @@ FrameInFlight::FrameInFlight(FrameInFlight&& other) noexcept : all_(other.all_),
     arrived_ = std::exchange(other.arrived_, 0);
     own_ = std::exchange(other.own_, 0);
     taken_ = std::exchange(other.taken_, 0);
-    waiter_ = std::exchange(other.waiter_, nullptr);
+    waiters_ = std::exchange(other.waiters_, {});
     waited_ = std::exchange(other.waited_, {});
     sending_ = std::exchange(other.sending_, {});
     since_ = other.since_;
@@ -267,14 +269,15 @@ bool FrameInFlight::book(std::size_t arrived, std::function<void()> booked) {
     {
         const std::lock_guard lock(all_->mutex_);
         if (!begun_) return true;
-        arrived_ = arrived;
+        arrived_ = std::max(arrived_, arrived);
         const bool was_missing = missing() != 0;
         if (!all_->grant(*this)) {
             begin_to_wait(std::move(booked), all_->now_());
             return false;
         }
+        if (waits()) calls = end_to_wait(all_->now_());
         // It may have been the next one, and kept others from beginning.
-        if (was_missing && missing() == 0) calls = all_->grant_waiting();
+        if (was_missing && missing() == 0) std::ranges::move(all_->grant_waiting(), std::back_inserter(calls));
     }
     for (const auto& call : calls) call();
     return true;
@@ -282,11 +285,11 @@ bool FrameInFlight::book(std::size_t arrived, std::function<void()> booked) {
 
 void FrameInFlight::release() noexcept {
     BytesInFlight::Calls calls;
-    std::function<void()> forgotten;  // destroyed outside of the lock
+    std::vector<std::function<void()>> forgotten;  // destroyed outside of the lock
     {
         const std::lock_guard lock(all_->mutex_);
         if (!begun_) return;
-        forgotten = std::exchange(waiter_, nullptr);
+        forgotten = std::exchange(waiters_, {});
         all_->forget(*this);
         calls = all_->grant_waiting();
     }

@@ -109,7 +109,8 @@ private:
     std::size_t taken_ = 0;               ///< of what is in common
 };
 
-/// One frame's part, until it is released. One thread at a time.
+/// One frame's part, until it is released. One thread at a time, but for book(), which several that receive the frame
+/// may call.
 class FrameInFlight {
 public:
     explicit FrameInFlight(std::shared_ptr<BytesInFlight> all,
@@ -126,7 +127,8 @@ public:
     /// it.
     void announce(std::size_t bytes);
     /// Books this number of the announced bytes, which have arrived. If it returns false, they are booked later, and
-    /// the function is called then, by another thread, unless the frame is released before.
+    /// the function is called then, by another thread, unless the frame is released before. So are those of others that
+    /// wait: all are called together, once what has arrived by then is booked.
     bool book(std::size_t arrived, std::function<void()> booked);
     void release() noexcept;
 
@@ -137,8 +139,9 @@ private:
 
     std::size_t missing() const noexcept { return admitted_ ? announced_ - own_ - taken_ : announced_; }
     void begin_to_wait(std::function<void()> waiter, Clock::time_point now);
-    /// Returns the function to call.
-    std::function<void()> end_to_wait(Clock::time_point now);
+    /// Returns the functions to call.
+    std::vector<std::function<void()>> end_to_wait(Clock::time_point now);
+    bool waits() const noexcept { return !waiters_.empty(); }
     /// Whether it has waited long enough to be next.
     bool is_due(Clock::time_point now) const;
     /// Since when it is due, if it is.
@@ -157,7 +160,7 @@ private:
     std::size_t arrived_ = 0;
     std::size_t own_ = 0;    ///< booked from the session's share
     std::size_t taken_ = 0;  ///< and beyond it
-    std::function<void()> waiter_;
+    std::vector<std::function<void()>> waiters_;
     Clock::duration waited_{};   ///< for bytes, up to since_
     Clock::duration sending_{};  ///< its simulator, up to since_; from when it was next, once it is
     Clock::time_point since_;    ///< it waits, or does not
