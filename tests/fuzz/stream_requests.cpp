@@ -4,16 +4,16 @@
 
 #include "conversion/particle_arrays.hpp"
 #include "meniscus/v1/surface_service.pb.h"
-#include "sessions/intake/frame_assembler.hpp"
 #include "sessions/intake/input_frame.hpp"
 #include "support.hpp"
+#include "whole_frames.hpp"
 
 namespace meniscus::fuzz {
 
 namespace {
 
 /// As one after the other comes in. Throws what a stream ends with.
-void receive(const v1::StreamRequest& request, server::FrameAssembler& assembler, server::InputFrame& input) {
+void receive(const v1::StreamRequest& request, server::test::WholeFrames& assembler, server::InputFrame& input) {
     switch (request.message_case()) {
         case v1::StreamRequest::kFrameBegin:
             assembler.begin(request.frame_begin(), input);
@@ -23,7 +23,7 @@ void receive(const v1::StreamRequest& request, server::FrameAssembler& assembler
             assembler.append(request.frame_chunk(), input);
             break;
         case v1::StreamRequest::kFrameEnd: {
-            assembler.end(input);
+            assembler.end();
             const ParticleFrame view = input.view();
             require(view.count() == input.particle_count, "a frame that has ended holds the particles announced");
             std::size_t bytes = view.positions.size_bytes() + view.quantized.size_bytes() + view.levels.size_bytes();
@@ -36,7 +36,7 @@ void receive(const v1::StreamRequest& request, server::FrameAssembler& assembler
             const std::size_t gaps = input.bytes.size() - bytes;
             require(bytes <= input.bytes.size() && gaps < 4 * (1 + view.arrays.size()),
                     "positions, levels and arrays are all of a frame's bytes, but for what aligns them");
-            require(assembler.arrived() == input.bytes.size(), "a frame that has ended has arrived");
+            require(assembler.take_kept() == bytes, "a frame that has ended has arrived");
             break;
         }
         default:
@@ -76,7 +76,7 @@ void stream_requests(Bytes bytes) {
     const std::uint64_t kind = front.number(1) % 3;
     settings.all_attributes = kind == 1;
     if (kind == 2) settings.attributes = {"velocity", "id"};
-    server::FrameAssembler assembler(limits, settings);
+    server::test::WholeFrames assembler(limits, settings);
     server::InputFrame input(std::make_shared<MemoryAccount>(limits.bytes_per_session));
     may_refuse([&] {
         while (!front.empty()) {

@@ -26,6 +26,7 @@ std::string ended_by(const grpc::ClientContext& context) {
 bool can_reconnect_after(const grpc::Status& status, const grpc::ClientContext& context) {
     switch (status.error_code()) {
         case grpc::StatusCode::UNAVAILABLE:
+        case grpc::StatusCode::ABORTED:            // another part of the frames has broken off
         case grpc::StatusCode::CANCELLED:          // by a proxy, or a server that did not wait any longer
         case grpc::StatusCode::UNKNOWN:            // gRPC's word for some broken connections
         case grpc::StatusCode::DEADLINE_EXCEEDED:  // of an attempt

@@ -44,6 +44,8 @@ DropReason from_wire(v1::DropReason reason) {
             return DropReason::replaced;
         case v1::DROP_REASON_NOT_NTH:
             return DropReason::not_nth;
+        case v1::DROP_REASON_INCOMPLETE:
+            return DropReason::incomplete;
         case v1::DROP_REASON_UNSPECIFIED:
         case v1::DropReason_INT_MIN_SENTINEL_DO_NOT_USE_:
         case v1::DropReason_INT_MAX_SENTINEL_DO_NOT_USE_:
@@ -63,7 +65,9 @@ v1::StreamOpen open_message(const std::string& session_id, const StreamOptions& 
     open.set_with_spray(options.spray);
     *open.mutable_attributes() = conversion::to_wire(std::span(options.attributes));
     open.set_reconnect_seconds(std::chrono::duration<double>(options.reconnect).count());
-    open.set_run_id(random_run_id());
+    open.set_run_id(options.run != 0 ? options.run : random_run_id());
+    if (options.parts > 1) open.set_parts(options.parts);
+    open.set_part(options.part);
     return open;
 }
 
@@ -91,6 +95,29 @@ v1::CreateSessionRequest as_it_is_now(Connection& connection, grpc::ClientContex
     return create;
 }
 
+void require_valid_part(const StreamOptions& options) {
+    if (options.part >= std::max(options.parts, 1U))
+        throw InvalidInput("part is " + std::to_string(options.part) + " of " + std::to_string(options.parts) +
+                           " parts; they are counted from 0");
+    if (options.parts > 1 && options.run == 0)
+        throw InvalidInput("run is 0, and parts is " + std::to_string(options.parts) +
+                           ": let part 0 draw a number at random, and give it to all parts");
+}
+
+/// A server that does not know parts would take each for a whole frame.
+void require_known_parts(const Connection& connection, const StreamOptions& options) {
+    if (options.parts <= 1) return;
+    grpc::ClientContext context;
+    const CancelOnStop cancel_on_stop(context, options.stop);
+    connection.add_metadata(context, {});
+    context.set_deadline(deadline_after<std::chrono::system_clock>(connection.timeout));
+    v1::GetServerInfoResponse info;
+    require_ok(connection.server->GetServerInfo(&context, {}, &info), connection.address);
+    if (options.parts > info.limits().parts_per_frame())
+        throw InvalidInput("parts is " + std::to_string(options.parts) + "; the server at " + connection.address +
+                           " takes frames in at most " + std::to_string(std::max(info.limits().parts_per_frame(), 1U)));
+}
+
 }  // namespace
 
 Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options,
@@ -100,6 +127,8 @@ Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& se
       made_(std::move(made)),
       open_(open_message(session_id, options_)),
       named_(std::move(named)) {
+    require_valid_part(options_);
+    require_known_parts(*connection_, options_);
     if (resumes()) {
         grpc::ClientContext context;
         const CancelOnStop cancel_on_stop(context, options_.stop);
@@ -308,7 +337,7 @@ void Stream::Impl::receive(std::shared_ptr<UploadCall> call) {
 }
 
 grpc::Status Stream::Impl::read_answers(UploadCall& call) {
-    FrameReceiver receiver(options_.receive_meshes);
+    FrameReceiver receiver(options_.receive_meshes && options_.part == 0);
     try {
         std::string instance = call.accepted_by();
         if (!instance.empty() && std::exchange(connecting_, false)) report(true, *broken_at_ + options_.reconnect);

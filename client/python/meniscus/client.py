@@ -120,6 +120,10 @@ class Client:
         waiting_limit   0: received frames that wait at most, beyond which push() waits; 0: no limit
         policy          "every-frame": push() waits; "latest": the newest one replaces the one that waits;
                         "every-nth": the first of every ``nth`` is reconstructed
+        parts           1: streams, of other processes too, that each push a part of every frame, with the same indices
+                        and times; whatever ends one of them ends all
+        part            0: the number of this one, counted from 0; meshes come to part 0 alone
+        run             0: with ``parts``, a number that all of them share, and no other run: let one process draw it
         reconnect       0: seconds for which the server may be out of reach; nothing is lost meanwhile
         route_check     2: seconds between looks for the session's server behind a proxy, with ``reconnect``
         on_reconnect    called at each attempt (attempt, connected, reason, seconds left), until close()

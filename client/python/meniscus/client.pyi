@@ -86,6 +86,9 @@ class Client:
         waiting_limit: Optional[Whole] = 0,
         policy: Optional[Literal["every-frame", "latest", "every-nth"]] = "every-frame",
         nth: Optional[Whole] = 1,
+        parts: Optional[Whole] = 1,
+        part: Optional[Whole] = 0,
+        run: Optional[Whole] = 0,
         reconnect: Optional[Real] = 0,
         route_check: Optional[Real] = 2,
         # end of rows

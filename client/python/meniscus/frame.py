@@ -40,14 +40,15 @@ class Frame:
         #: To a watcher: bricks (x, y, z) that are new or differ from the frame before, and those that are gone.
         self.changed: tuple[tuple[int, int, int], ...] = raw.changed
         self.vanished: tuple[tuple[int, int, int], ...] = raw.vanished
-        #: From a stream: frames that the server left out since the frame before: (index, "replaced" or "not_nth").
+        #: From a stream: frames that the server left out since the frame before: (index, "replaced", "not_nth", or
+        #: "incomplete" where another part of it is missing).
         self.dropped: tuple[tuple[int, str], ...] = raw.dropped
 
     @cached_property
     def mesh(self) -> Mesh:
         """The mesh, decoded when it is asked for first."""
         if not self._has_mesh:
-            raise InvalidInput("this frame has no mesh: its stream was opened with meshes=False")
+            raise InvalidInput("this frame has no mesh: its stream was opened with meshes=False, or with a part but 0")
         return Mesh(self._raw.mesh())
 
     @cached_property

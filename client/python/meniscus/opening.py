@@ -27,7 +27,7 @@ def open_stream(
     texts = option_texts({"meshes": meshes, **options})
     texts["attribute"] = attribute_text(attributes)
     handler = _handler(on_reconnect)
-    stream = Stream(open_raw(texts, handler), meshes)
+    stream = Stream(open_raw(texts, handler), meshes and not options.get("part"))  # meshes come to part 0 alone
     stream._handler = handler
     return stream
 

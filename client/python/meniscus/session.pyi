@@ -33,6 +33,9 @@ class Session:
         waiting_limit: Optional[Whole] = 0,
         policy: Optional[Literal["every-frame", "latest", "every-nth"]] = "every-frame",
         nth: Optional[Whole] = 1,
+        parts: Optional[Whole] = 1,
+        part: Optional[Whole] = 0,
+        run: Optional[Whole] = 0,
         reconnect: Optional[Real] = 0,
         route_check: Optional[Real] = 2,
         # end of rows

@@ -35,6 +35,7 @@ Reason reason_of(const Refusal& refusal) {
             return {.name = "unimplemented"};
         case Refusal::Kind::unavailable:
         case Refusal::Kind::data_loss:
+        case Refusal::Kind::aborted:
             break;
     }
     return {};

@@ -30,6 +30,8 @@ grpc::StatusCode code_of(Refusal::Kind kind) {
             return grpc::StatusCode::UNIMPLEMENTED;
         case Refusal::Kind::data_loss:
             return grpc::StatusCode::DATA_LOSS;
+        case Refusal::Kind::aborted:
+            return grpc::StatusCode::ABORTED;
     }
     return grpc::StatusCode::INTERNAL;
 }

@@ -6,12 +6,14 @@
 #include <grpcpp/support/proto_buffer_reader.h>
 
 #include <chrono>
+#include <cstdint>
 #include <exception>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "meniscus/error.hpp"
 #include "meniscus/v1/surface_service.pb.h"
@@ -26,17 +28,18 @@
 #include "rpc/messages/wire_bytes.hpp"
 #include "sessions/intake/frame_assembler.hpp"
 #include "sessions/limits/refusal.hpp"
+#include "sessions/session/joint_upload.hpp"
 
 namespace meniscus::server {
 
 namespace {
 
-/// Two sides run side by side. The reading side is one thread at a time: a read is under way, or a free input slot is
-/// waited for, or the session before that, or reading has ended. It owns the input slot while it works on a message;
-/// otherwise the lock's holder does, so that a call that ends gives its slot back however dead its connection is. The
-/// writing side sends what the upload's output holds and finishes the call after its end. It also finishes after a
-/// cancellation, as soon as no write is under way, so that no call outlives its client.
-class StreamReactor final : public ByteReactor, public std::enable_shared_from_this<StreamReactor> {
+/// Two sides run side by side. The reading side is one thread at a time: a read is under way, or a free input slot or
+/// the other parts of the frame are waited for, or the session before that, or reading has ended. The joint upload has
+/// the slot, and keeps it while this works on a message. The writing side sends what the upload's output holds for this
+/// part and finishes the call after its end. It also finishes after a cancellation, as soon as no write is under way,
+/// so that no call outlives its client.
+class StreamReactor final : public ByteReactor, public PartStream, public std::enable_shared_from_this<StreamReactor> {
 public:
     StreamReactor(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals, ActiveCalls& calls,
                   grpc::CallbackServerContext& context)
@@ -64,18 +67,17 @@ public:
     // The reading side.
 
     void OnReadDone(bool ok) override {
+        const bool had_joint = joint_ != nullptr;
         if (!begin_work()) return;
         try {
-            if (!ok) {
-                assembler_.end_of_stream();
-                if (!upload_) throw InvalidInput("the stream ended before its first message, open");
-                end_reading(nullptr);
-                return;
-            }
-            receive();
+            if (ok)
+                receive();
+            else
+                end_of_stream();
         } catch (...) {
-            end_reading(std::current_exception());
+            fail(std::current_exception());
         }
+        if (had_joint) joint_->leave();
     }
 
     // The writing side.
@@ -105,17 +107,50 @@ public:
         // For a call that ended before its upload: nobody reads, and the session is free for the next stream.
         // Whether the status was sent, gRPC knows only now: a connection's reads may fail before it is known to be
         // broken, and then the call was finished as one after which nothing followed.
-        session_->cancel_upload(upload_, context_.IsCancelled() ? UploadEnd::vanished : UploadEnd::answered);
+        joint_->done(part_, context_.IsCancelled() ? UploadEnd::vanished : UploadEnd::answered);
         call_log.write({.session = session_id_}, "stream from {} closed: {}", peer_, outcome_);
     }
 
-private:
-    /// False if what has been read is not wanted any more.
-    bool begin_work() {
+    // The joint upload's side.
+
+    void wake() override { write(); }
+
+    void read_next() override {
+        // Locked, so that the call cannot end in between.
         const std::lock_guard lock(mutex_);
-        if (reading_ended_ || canceled_) return false;
-        working_ = true;
-        return true;
+        if (!reading_ended_ && !canceled_) start_read();
+    }
+
+    void begun(std::optional<std::vector<FramePiece>> pieces) override {
+        if (!begin_work()) return;
+        passes_over_ = !pieces;
+        if (passes_over_)
+            assembler_.pass_over(announced_);
+        else
+            assembler_.place(announced_, *std::move(pieces));
+        read_once_booked();
+        joint_->leave();
+    }
+
+    void stop_reading() override {
+        const std::lock_guard lock(mutex_);
+        reading_ended_ = true;
+    }
+
+private:
+    /// False if what has been read is not wanted any more. Once there is a joint upload, it is left after the work.
+    bool begin_work() {
+        {
+            const std::lock_guard lock(mutex_);
+            if (reading_ended_ || canceled_) return false;
+        }
+        return !joint_ || joint_->enter();
+    }
+
+    void end_of_stream() {
+        assembler_.end_of_stream();
+        if (!joint_) throw InvalidInput("the stream ended before its first message, open");
+        joint_->close(part_);
     }
 
     void receive() {
@@ -127,8 +162,7 @@ private:
             return;
         }
         upload_->last_activity = Upload::Clock::now();
-        if (!receive_chunk() && !receive_message()) return;
-        read_once_booked();
+        if (receive_chunk() || receive_message()) read_once_booked();
     }
 
     /// False if it is another message.
@@ -137,40 +171,36 @@ private:
         if (!bytes.status().ok()) return false;
         FrameChunkReader chunk(bytes, incoming_.Length());
         if (!chunk.bytes()) return false;
-        assembler_.append(*chunk.bytes(), *input_, chunk);
-        upload_->pace.arrived(*chunk.bytes());
+        assembler_.append(*chunk.bytes(), joint_->input(), chunk);
+        chunk_arrived(*chunk.bytes());
         return true;
     }
 
-    /// False if the next read is not for now.
+    void chunk_arrived(std::size_t bytes) {
+        if (!passes_over_) upload_->pace.arrived(bytes);
+    }
+
+    /// False if the joint upload says when the next read is due.
     bool receive_message() {
         parse(incoming_, request_, "StreamRequest");
         switch (request_.message_case()) {
             case v1::StreamRequest::kOpen:
                 throw InvalidInput("a second open; a stream has one, its first message");
             case v1::StreamRequest::kFrameBegin:
-                session_->admit_frame(request_.frame_begin().frame_index());
-                assembler_.begin(request_.frame_begin(), *input_);
-                upload_->pace.begin(request_.frame_begin().frame_index(), assembler_.expected());
-                enter_frame(true);
-                return true;
+                announced_ = assembler_.announce(request_.frame_begin());
+                joint_->begin(part_, announced_);
+                return false;
             case v1::StreamRequest::kFrameChunk:
-                assembler_.append(request_.frame_chunk(), *input_);
-                upload_->pace.arrived(request_.frame_chunk().data().size());
+                assembler_.append(request_.frame_chunk(), joint_->input());
+                chunk_arrived(request_.frame_chunk().data().size());
                 return true;
             case v1::StreamRequest::kFrameEnd:
-                assembler_.end(*input_);
-                upload_->pace.end();
-                session_->submit(upload_, *std::exchange(input_, nullptr));
-                if (enter_frame(false))
-                    request_input();
-                else
-                    end_reading(std::make_exception_ptr(shutting_down()));
+                assembler_.end();
+                joint_->end(part_);
                 return false;
             case v1::StreamRequest::kMove:
                 assembler_.end_of_stream();
-                upload_->moves = true;
-                end_reading(std::make_exception_ptr(moved()));
+                joint_->move();
                 return false;
             case v1::StreamRequest::MESSAGE_NOT_SET:
                 break;
@@ -187,23 +217,17 @@ private:
 
     /// The next read starts once what has arrived is booked: until then gRPC's flow control slows the simulator down.
     void read_once_booked() {
-        const bool booked = input_->book(assembler_.arrived(), [self = weak_from_this()] {
+        const bool booked = passes_over_ || joint_->book(assembler_.take_kept(), [self = weak_from_this()] {
             if (const auto reactor = self.lock()) reactor->booked();
         });
-        InputFrame* unused = nullptr;
-        {
-            const std::lock_guard lock(mutex_);
-            working_ = false;
-            if (reading_ended_ || canceled_) {
-                unused = std::exchange(input_, nullptr);
-            } else if (booked || std::exchange(booked_already_, false)) {
-                start_read();
-            } else {
-                waits_for_room_ = true;
-                upload_->pace.pause();
-            }
+        const std::lock_guard lock(mutex_);
+        if (reading_ended_ || canceled_) return;
+        if (booked || std::exchange(booked_already_, false)) {
+            start_read();
+        } else {
+            waits_for_room_ = true;
+            upload_->pace.pause();
         }
-        if (unused != nullptr) session_->return_input(*unused);
     }
 
     /// Called by another thread, which may be faster than the one that asked.
@@ -236,7 +260,7 @@ private:
             open_again_soon();
             return false;
         }
-        request_input();
+        joint_->ready(part_);
         return true;
     }
 
@@ -244,7 +268,6 @@ private:
         constexpr auto pause = std::chrono::milliseconds(5);
         {
             const std::lock_guard lock(mutex_);
-            working_ = false;
             waits_to_open_ = true;
         }
         alarm_ = std::make_unique<grpc::Alarm>();
@@ -260,7 +283,7 @@ private:
             try {
                 is_over = open_or_wait();
             } catch (...) {
-                end_reading(std::current_exception());
+                fail(std::current_exception());
             }
         }
         if (!is_over) return;
@@ -277,99 +300,29 @@ private:
         const auto session = find_session(caller_, registry_, session_id_);
         const CodecChoice codec = codec_choice(message);
         options.codec = codec.codec;
-        const auto wake = [self = weak_from_this()] {
-            if (const auto reactor = self.lock()) reactor->write();
-        };
-        const auto drain = [self = weak_from_this()] {
-            if (const auto reactor = self.lock()) reactor->drain();
-        };
-        const auto stop = [self = weak_from_this()](std::exception_ptr error) {
-            if (const auto reactor = self.lock()) reactor->stop_reading(std::move(error));
-        };
         // Before it, as a server that stops waits for streams of its sessions alone.
         if (!active_) active_.emplace(calls_);
-        auto upload = session->open_upload(options, wake, drain, stop);
+        auto joint = JointUpload::open(session, options, message.part(), weak_from_this());
         assembler_ = FrameAssembler(registry_.limits(), session->settings());
         call_log.write({.session = session_id_}, "stream from {} opened", peer_);
         {
             const std::lock_guard lock(mutex_);
-            session_ = session;
-            upload_ = std::move(upload);
-            if (upload_->options.receive_meshes) announce(codec, context_);
+            part_ = message.part();
+            joint_ = std::move(joint);
+            upload_ = joint_->upload();
+            if (options.receive_meshes) announce(codec, context_);
             // The client knows from here on which server it has. The server may have gone down since open_upload().
             if (!finished_) StartSendInitialMetadata();
         }
         write();
     }
 
-    /// The next read starts once a slot is free, and the simulator reads its answers: until then gRPC's flow
-    /// control slows it down.
-    void request_input() {
-        {
-            const std::lock_guard lock(mutex_);
-            working_ = false;
-        }
-        upload_->unreported_drops.when_below_limit([self = weak_from_this(), session = session_] {
-            session->request_input([self](InputFrame& input) {
-                const auto reactor = self.lock();
-                return reactor && reactor->use_input(input);
-            });
-        });
-    }
-
-    bool use_input(InputFrame& input) {
-        // Locked, so that the call cannot end in between.
-        const std::lock_guard lock(mutex_);
-        if (reading_ended_ || canceled_) return false;
-        input_ = &input;
-        start_read();
-        return true;
-    }
-
-    /// False if the frame that has ended is to be the last.
-    bool enter_frame(bool in_frame) {
-        const std::lock_guard lock(mutex_);
-        in_frame_ = in_frame;
-        return in_frame || !draining_;
-    }
-
-    /// Ends reading: the frames that were received before are answered, then the call ends with the error.
-    void end_reading(std::exception_ptr error) {
-        InputFrame* unused = nullptr;
-        {
-            const std::lock_guard lock(mutex_);
-            working_ = false;
-            unused = std::exchange(input_, nullptr);
-        }
-        if (unused != nullptr) session_->return_input(*unused);
-        stop_reading(std::move(error));
-    }
-
-    void stop_reading(std::exception_ptr error) {
-        std::shared_ptr<Upload> upload;
-        InputFrame* unused = nullptr;
-        {
-            const std::lock_guard lock(mutex_);
-            if (std::exchange(reading_ended_, true)) return;
-            upload = upload_;
-            // Now, and not with the call's end: a simulator that reads nothing could hold it back.
-            if (!working_) unused = std::exchange(input_, nullptr);
-        }
-        if (unused != nullptr) session_->return_input(*unused);
-        if (upload)
-            session_->end_upload(std::move(upload), std::move(error));
+    /// Ends reading: the frames that were received before are answered, then the calls of all parts end with the error.
+    void fail(std::exception_ptr error) {
+        if (joint_)
+            joint_->fail(part_, error);
         else
             refuse(std::move(error));
-    }
-
-    /// From another thread. Between two frames the read that is under way is left to itself.
-    void drain() {
-        {
-            const std::lock_guard lock(mutex_);
-            draining_ = true;
-            if (in_frame_) return;
-        }
-        stop_reading(std::make_exception_ptr(shutting_down()));
     }
 
     /// Ends a call that never had an upload.
@@ -383,7 +336,6 @@ private:
     }
 
     void write() {
-        InputFrame* unused = nullptr;
         {
             const std::lock_guard lock(mutex_);
             if (finished_ || waits_to_open_) return;
@@ -393,10 +345,9 @@ private:
                 return;
             }
             write_next();
-            if (finished_ && !working_) unused = std::exchange(input_, nullptr);
+            if (!finished_ || !joint_) return;
         }
-        // Outside of the lock: the slot may go to another stream at once.
-        if (unused != nullptr) session_->return_input(*unused);
+        joint_->finished();
     }
 
     void write_next() {
@@ -405,7 +356,7 @@ private:
         } else if (refusal_) {
             finish_with(*refusal_);
         } else if (upload_) {
-            auto next = upload_->output.take();
+            auto next = upload_->output.take(part_);
             if (const auto* message = std::get_if<SharedMessage>(&next)) {
                 registry_.metrics().message_sent(Metrics::Receiver::simulator, (*message)->size());
                 outgoing_ = to_bytes(*message);
@@ -455,25 +406,24 @@ private:
     // The following belong to the reading side.
     grpc::ByteBuffer incoming_;
     v1::StreamRequest request_;
-    FrameAssembler assembler_;  ///< of the session, once there is one
-    InputFrame* input_ = nullptr;
+    FrameAssembler assembler_;                             ///< of the session, once there is one
+    FramePart announced_;                                  ///< of the frame begun last
+    bool passes_over_ = false;                             ///< its bytes
     std::optional<Upload::Clock::time_point> open_until_;  ///< none: the session was free at once
     std::unique_ptr<grpc::Alarm> alarm_;                   ///< for the next attempt
 
     // Set once, by the reading side, with the lock held.
-    std::shared_ptr<Session> session_;
+    std::uint32_t part_ = 0;
+    std::shared_ptr<JointUpload> joint_;
     std::shared_ptr<Upload> upload_;
 
     std::mutex mutex_;  ///< for what follows
     grpc::ByteBuffer outgoing_;
     std::optional<std::exception_ptr> refusal_;
     std::string outcome_;
-    bool working_ = false;         ///< the reading side, on a message
     bool waits_to_open_ = false;   ///< until its last attempt is over; nothing is written, and the call not finished
     bool waits_for_room_ = false;  ///< the reading side
     bool booked_already_ = false;  ///< before it waited
-    bool in_frame_ = false;
-    bool draining_ = false;
     bool reading_ended_ = false;
     bool writing_ = false;
     bool canceled_ = false;

@@ -9,6 +9,7 @@
 #include "conversion/attribute_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "rpc/messages/normal_bits.hpp"
+#include "sessions/limits/limits.hpp"
 
 namespace meniscus::server {
 
@@ -32,6 +33,17 @@ UploadPolicy policy_of(const v1::StreamOpen& message) {
         fmt::format("policy has the value {}, which this version does not know", static_cast<int>(message.policy())));
 }
 
+std::uint32_t parts_of(const v1::StreamOpen& message) {
+    const std::uint32_t parts = std::max(message.parts(), 1U);
+    if (parts > parts_per_frame)
+        throw InvalidInput(fmt::format("parts is {}; a frame has at most {}", message.parts(), parts_per_frame));
+    if (message.part() >= parts)
+        throw InvalidInput(fmt::format("part is {} of {} parts; they are counted from 0", message.part(), parts));
+    if (parts > 1 && message.run_id() == 0)
+        throw InvalidInput(fmt::format("run_id is 0, and parts is {}: all parts name the same run", parts));
+    return parts;
+}
+
 std::chrono::milliseconds reconnect_of(const v1::StreamOpen& message) {
     const double seconds = message.reconnect_seconds();
     if (!std::isfinite(seconds) || seconds < 0.0)
@@ -51,6 +63,7 @@ UploadOptions upload_options(const v1::StreamOpen& message) {
             .policy = policy_of(message),
             .nth = message.nth(),
             .run_id = message.run_id(),
+            .parts = parts_of(message),
             .reconnect = reconnect_of(message)};
 }
 

@@ -4,13 +4,11 @@
 
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <utility>
 
 #include "conversion/particle_arrays.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/error.hpp"
-#include "sessions/limits/limit_reached.hpp"
 
 namespace meniscus::server {
 
@@ -52,26 +50,7 @@ private:
 
 }  // namespace
 
-FramePlan FrameAssembler::plan(const v1::FrameBegin& message, const conversion::ParticleLayout& layout) const {
-    const std::vector<conversion::FurtherArray> kept = arrays_to_keep(layout, message.particle_count(), settings_);
-    const std::uint64_t count = message.particle_count();
-    if (limits_.particles_per_frame != 0 && count > limits_.particles_per_frame)
-        throw LimitExceeded(fmt::format("frame {}: {} particles; the server takes at most {} per frame",
-                                        message.frame_index(), count, limits_.particles_per_frame));
-    constexpr std::uint64_t countable = std::numeric_limits<std::ptrdiff_t>::max();
-    const std::uint64_t limit = limits_.bytes_per_session != 0 ? limits_.bytes_per_session : countable;
-    const std::uint64_t particle_bytes = kept_bytes_per_particle(layout, kept);
-    if (count > limit / particle_bytes)
-        throw LimitExceeded(
-            fmt::format("frame {}: {} particles of {} bytes; the server holds at most {} bytes per session",
-                        message.frame_index(), count, particle_bytes, limit));
-    if (count > countable / layout.particle_bytes)
-        throw LimitExceeded(fmt::format("frame {}: {} particles of {} bytes; the server takes at most {} bytes",
-                                        message.frame_index(), count, layout.particle_bytes, countable));
-    return plan_frame(layout, kept, static_cast<std::size_t>(count));
-}
-
-void FrameAssembler::begin(const v1::FrameBegin& message, InputFrame& frame) {
+FramePart FrameAssembler::announce(const v1::FrameBegin& message) const {
     if (in_frame_)
         throw InvalidInput(fmt::format("frame {} begins before frame {} has ended", message.frame_index(), *index_));
     if (index_ && message.frame_index() <= *index_)
@@ -80,36 +59,34 @@ void FrameAssembler::begin(const v1::FrameBegin& message, InputFrame& frame) {
     if (!std::isfinite(message.simulation_time()))
         throw InvalidInput(fmt::format("frame {}: simulation_time is {}; it must be finite", message.frame_index(),
                                        message.simulation_time()));
-    conversion::ParticleLayout layout;
+    FramePart part;
+    part.index = message.frame_index();
+    part.simulation_time = message.simulation_time();
+    part.particle_count = message.particle_count();
     try {
-        layout = conversion::particle_layout(message.arrays());
-        plan_ = plan(message, layout);
+        part.layout = conversion::particle_layout(message.arrays());
+        part.kept = arrays_to_keep(part.layout, part.particle_count, settings_);
     } catch (const InvalidInput& error) {
         throw InvalidInput(fmt::format("frame {}: {}", message.frame_index(), error.what()));
     }
-    const Box box = layout.quantized ? quantization_box(message) : Box{};
-    expected_ = static_cast<std::size_t>(message.particle_count() * layout.particle_bytes);
+    if (part.layout.quantized) part.quantization_box = quantization_box(message);
+    return part;
+}
 
-    try {
-        frame.allocate(plan_.bytes);
-    } catch (const LimitReached& error) {
-        throw LimitReached(error.limit(), fmt::format("frame {}: {}", message.frame_index(), error.what()));
-    } catch (const LimitExceeded& error) {
-        throw LimitExceeded(fmt::format("frame {}: {}", message.frame_index(), error.what()));
-    }
-    frame.index = message.frame_index();
-    frame.simulation_time = message.simulation_time();
-    frame.particle_count = static_cast<std::size_t>(message.particle_count());
-    frame.quantized = layout.quantized;
-    frame.quantization_box = box;
-    frame.has_levels = layout.has_levels;
-    frame.keep_arrays(std::move(plan_.arrays));
-    index_ = message.frame_index();
+void FrameAssembler::place(const FramePart& part, std::vector<FramePiece> pieces) {
+    pieces_ = std::move(pieces);
+    expected_ = arriving_bytes(part);
+    count_ = part.particle_count;
+    index_ = part.index;
     piece_ = 0;
     filled_ = 0;
-    kept_ = 0;
+    kept_since_ = 0;
     chunks_ = 0;
     in_frame_ = true;
+}
+
+void FrameAssembler::pass_over(const FramePart& part) {
+    place(part, {{.begin = 0, .end = arriving_bytes(part)}});
 }
 
 void FrameAssembler::append(const v1::FrameChunk& message, InputFrame& frame) {
@@ -117,7 +94,7 @@ void FrameAssembler::append(const v1::FrameChunk& message, InputFrame& frame) {
     append(message.data().size(), frame, source);
 }
 
-void FrameAssembler::admit_chunk(std::size_t bytes, const InputFrame& frame) {
+void FrameAssembler::admit_chunk(std::size_t bytes) {
     if (!in_frame_) throw InvalidInput("a chunk outside of a frame; frame_begin comes first");
     if (bytes > chunk_bytes)
         throw InvalidInput(
@@ -128,16 +105,15 @@ void FrameAssembler::admit_chunk(std::size_t bytes, const InputFrame& frame) {
                         *index_, chunks_, limits_.chunks_per_frame));
     if (bytes > expected_ - filled_)
         throw InvalidInput(fmt::format("frame {}: at least {} bytes for {} particles; {} were announced", *index_,
-                                       filled_ + bytes, frame.particle_count, expected_));
+                                       filled_ + bytes, count_, expected_));
     ++chunks_;
 }
 
-void FrameAssembler::end(InputFrame& frame) {
+void FrameAssembler::end() {
     if (!in_frame_) throw InvalidInput("frame_end outside of a frame; frame_begin comes first");
     if (filled_ != expected_)
-        throw InvalidInput(fmt::format("frame {}: {} bytes for {} particles; {} were announced", *index_, filled_,
-                                       frame.particle_count, expected_));
-    frame.received_at = std::chrono::steady_clock::now();
+        throw InvalidInput(
+            fmt::format("frame {}: {} bytes for {} particles; {} were announced", *index_, filled_, count_, expected_));
     in_frame_ = false;
 }
 

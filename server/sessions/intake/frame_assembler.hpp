@@ -1,4 +1,5 @@
-// Checks what a simulator sends and puts its frames together: the edge at which the wire's claims are verified.
+// Checks what a stream sends and puts the bytes of frames in their places: the edge at which the wire's claims are
+// verified.
 #pragma once
 
 #include <algorithm>
@@ -6,6 +7,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "meniscus/settings.hpp"
 #include "meniscus/v1/surface_service.pb.h"
@@ -23,20 +26,25 @@ public:
     explicit FrameAssembler(const Limits& limits, const Settings& settings = {})
         : limits_(limits), settings_(settings) {}
 
-    void begin(const v1::FrameBegin& message, InputFrame& frame);
+    /// A frame, or the stream's part of one, that is to begin. place() or pass_over() follows, before the first chunk.
+    FramePart announce(const v1::FrameBegin& message) const;
+    /// Begins it. pieces: see begin_frame().
+    void place(const FramePart& part, std::vector<FramePiece> pieces);
+    /// Begins it, and keeps none of its bytes.
+    void pass_over(const FramePart& part);
     void append(const v1::FrameChunk& message, InputFrame& frame);
     /// A chunk of this many bytes. source.copy_to(std::span<std::byte>) takes its next ones, source.skip(std::size_t)
     /// passes over them.
     template <class Source>
     void append(std::size_t bytes, InputFrame& frame, Source& source) {
-        admit_chunk(bytes, frame);
+        admit_chunk(bytes);
         while (bytes > 0) {
-            const FramePlan::Piece& piece = plan_.pieces[piece_];
+            const FramePiece& piece = pieces_[piece_];
             const std::size_t part = std::min(bytes, piece.end - filled_);
             if (piece.kept) {
                 const std::size_t place = piece.place + (filled_ - piece.begin);
                 source.copy_to(std::span(frame.bytes).subspan(place, part));
-                kept_ += part;
+                kept_since_ += part;
             } else {
                 source.skip(part);
             }
@@ -45,29 +53,28 @@ public:
             if (filled_ == piece.end) ++piece_;
         }
     }
-    void end(InputFrame& frame);
+    void end();
     /// No further message follows.
     void end_of_stream() const;
 
     bool in_frame() const noexcept { return in_frame_; }
     /// Bytes of the frame begun last that are announced, those of arrays that are passed over included.
     std::size_t expected() const noexcept { return expected_; }
-    /// Bytes of InputFrame::bytes that it takes by what has arrived.
-    std::size_t arrived() const noexcept { return filled_ == expected_ ? plan_.bytes : kept_; }
+    /// Bytes that were put in their places since this was asked last.
+    std::size_t take_kept() noexcept { return std::exchange(kept_since_, 0); }
 
 private:
-    /// Throws LimitExceeded for a frame past a limit, InvalidInput as arrays_to_keep().
-    FramePlan plan(const v1::FrameBegin& message, const conversion::ParticleLayout& layout) const;
     /// Throws for one that is out of place, or too many.
-    void admit_chunk(std::size_t bytes, const InputFrame& frame);
+    void admit_chunk(std::size_t bytes);
 
     Limits limits_;
     Settings settings_;
     bool in_frame_ = false;
-    FramePlan plan_;          ///< of the frame begun last
-    std::size_t piece_ = 0;   ///< that the next byte is of
-    std::size_t filled_ = 0;  ///< bytes that have arrived
-    std::size_t kept_ = 0;    ///< of those
+    std::vector<FramePiece> pieces_;  ///< of the frame begun last
+    std::size_t piece_ = 0;           ///< that the next byte is of
+    std::size_t filled_ = 0;          ///< bytes that have arrived
+    std::size_t kept_since_ = 0;      ///< of those, since take_kept()
+    std::uint64_t count_ = 0;         ///< of particles
     std::uint32_t chunks_ = 0;
     std::optional<std::uint64_t> index_;  ///< of the frame begun last
     std::size_t expected_ = 0;

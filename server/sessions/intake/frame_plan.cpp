@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <string>
+#include <utility>
 
 #include "meniscus/array_form.hpp"
 #include "meniscus/error.hpp"
+#include "sessions/limits/limit_reached.hpp"
 
 namespace meniscus::server {
 
@@ -23,8 +26,123 @@ std::string names_of(const std::vector<FurtherArray>& arrays) {
     return names;
 }
 
+constexpr std::uint64_t countable = std::numeric_limits<std::ptrdiff_t>::max();
+
 std::size_t rounded_up(std::size_t offset, std::size_t multiple) {
     return (offset + multiple - 1) / multiple * multiple;
+}
+
+/// The most bytes per particle that such a frame takes here.
+std::uint64_t kept_bytes_per_particle(const FramePart& part) {
+    std::uint64_t bytes = part.layout.position_bytes + (part.layout.has_levels ? 1 : 0);
+    for (const FurtherArray& array : part.kept) bytes += array.bytes;
+    return bytes;
+}
+
+const FurtherArray* find_array(const std::vector<FurtherArray>& arrays, const std::string& name) {
+    const auto found = std::ranges::find(arrays, name, &FurtherArray::name);
+    return found != arrays.end() ? &*found : nullptr;
+}
+
+std::string words_of(const FurtherArray* array) {
+    return array != nullptr ? conversion::form_of(*array) : "missing";
+}
+
+std::string words_of(const Box& box) {
+    return fmt::format("({}, {}, {}) to ({}, {}, {})", box.min[0], box.min[1], box.min[2], box.max[0], box.max[1],
+                       box.max[2]);
+}
+
+/// Throws InvalidInput if the part cannot be in one frame with the lead, whose form the frame takes.
+void require_same_form(std::span<const FramePart> parts, const FramePart& lead, const FramePart& part) {
+    const auto require_same = [&](const std::string& what, const std::string& is, const std::string& of_lead) {
+        if (is != of_lead)
+            throw InvalidInput(
+                fmt::format("frame {}: {} of part {} is {}, and {} in part {}; in all parts of a frame "
+                            "it is the same",
+                            part.index, what, &part - parts.data(), is, of_lead, &lead - parts.data()));
+    };
+    require_same("simulation_time", fmt::format("{}", part.simulation_time), fmt::format("{}", lead.simulation_time));
+    // A part without particles has no form.
+    if (part.particle_count == 0) return;
+    const auto positions = [](const FramePart& of) { return of.layout.quantized ? "uint16" : "float32"; };
+    require_same("array 'position'", positions(part), positions(lead));
+    if (part.layout.quantized)
+        require_same("quantization_box", words_of(part.quantization_box), words_of(lead.quantization_box));
+    const auto levels = [](const FramePart& of) { return of.layout.has_levels ? "there" : "missing"; };
+    require_same("array 'level'", levels(part), levels(lead));
+    for (const auto* arrays : {&part.kept, &lead.kept})
+        for (const FurtherArray& array : *arrays)
+            require_same(fmt::format("array '{}'", array.name), words_of(find_array(part.kept, array.name)),
+                         words_of(find_array(lead.kept, array.name)));
+}
+
+/// The particles of all parts. Throws LimitExceeded for too many.
+std::size_t particles_of(std::span<const FramePart> parts, const FramePart& lead, const Limits& limits) {
+    std::uint64_t count = 0;
+    for (const FramePart& part : parts)
+        count += std::min(part.particle_count, std::numeric_limits<std::uint64_t>::max() - count);
+    if (limits.particles_per_frame != 0 && count > limits.particles_per_frame)
+        throw LimitExceeded(fmt::format("frame {}: {} particles; the server takes at most {} per frame", lead.index,
+                                        count, limits.particles_per_frame));
+    const std::uint64_t limit = limits.bytes_per_session != 0 ? limits.bytes_per_session : countable;
+    const std::uint64_t particle_bytes = kept_bytes_per_particle(lead);
+    if (count > limit / particle_bytes)
+        throw LimitExceeded(
+            fmt::format("frame {}: {} particles of {} bytes; the server holds at most {} bytes per session", lead.index,
+                        count, particle_bytes, limit));
+    std::uint64_t arriving = 0;
+    for (const FramePart& part : parts) {
+        arriving += arriving_bytes(part);
+        if (arriving > countable)
+            throw LimitExceeded(
+                fmt::format("frame {}: {} particles; the server takes at most {} bytes", lead.index, count, countable));
+    }
+    return static_cast<std::size_t>(count);
+}
+
+/// Where the arrays of a frame lie in InputFrame::bytes; positions lie at the beginning.
+struct Places {
+    std::size_t levels = 0;
+    std::vector<InputFrame::KeptArray> arrays;
+    std::size_t bytes = 0;
+};
+
+/// count: of particles, small enough that all of the frame's bytes can be counted.
+Places places_of(const FramePart& lead, std::size_t count) {
+    Places places;
+    places.levels = count * lead.layout.position_bytes;
+    places.bytes = places.levels + (lead.layout.has_levels ? count : 0);
+    for (const FurtherArray& array : lead.kept) {
+        // So that its numbers can be read where they lie.
+        if (count != 0) places.bytes = rounded_up(places.bytes, size_of(*array.type));
+        places.arrays.push_back(
+            {.name = array.name, .type = *array.type, .components = array.components, .offset = places.bytes});
+        places.bytes += count * array.bytes;
+    }
+    return places;
+}
+
+/// first: the number of the part's first particle in the frame.
+std::vector<FramePiece> pieces_of(const FramePart& part, std::size_t first, const Places& places) {
+    if (part.particle_count == 0) return {};
+    const auto count = static_cast<std::size_t>(part.particle_count);
+    std::vector<FramePiece> pieces;
+    const auto add = [&](std::uint64_t after, std::uint64_t bytes, bool kept, std::size_t place) {
+        pieces.push_back({.begin = count * after,
+                          .end = count * (after + bytes),
+                          .kept = kept,
+                          .place = kept ? place + first * bytes : 0});
+    };
+    add(0, part.layout.position_bytes, true, 0);
+    if (part.layout.has_levels) add(part.layout.levels_after, 1, true, places.levels);
+    for (const FurtherArray& array : part.layout.further) {
+        const auto found = std::ranges::find(places.arrays, array.name, &InputFrame::KeptArray::name);
+        const bool kept = found != places.arrays.end();
+        add(array.after, array.bytes, kept, kept ? found->offset : 0);
+    }
+    std::ranges::sort(pieces, {}, &FramePiece::begin);
+    return pieces;
 }
 
 }  // namespace
@@ -51,36 +169,41 @@ std::vector<FurtherArray> arrays_to_keep(const conversion::ParticleLayout& layou
     return arrays;
 }
 
-std::uint64_t kept_bytes_per_particle(const conversion::ParticleLayout& layout, const std::vector<FurtherArray>& kept) {
-    std::uint64_t bytes = layout.position_bytes + (layout.has_levels ? 1 : 0);
-    for (const FurtherArray& array : kept) bytes += array.bytes;
-    return bytes;
+std::size_t arriving_bytes(const FramePart& part) {
+    if (part.particle_count > countable / part.layout.particle_bytes)
+        throw LimitExceeded(fmt::format("frame {}: {} particles of {} bytes; the server takes at most {} bytes",
+                                        part.index, part.particle_count, part.layout.particle_bytes, countable));
+    return static_cast<std::size_t>(part.particle_count * part.layout.particle_bytes);
 }
 
-FramePlan plan_frame(const conversion::ParticleLayout& layout, const std::vector<FurtherArray>& kept,
-                     std::size_t count) {
-    FramePlan plan;
-    const auto keep = [&](std::uint64_t after, std::uint64_t bytes) {
-        plan.pieces.push_back(
-            {.begin = count * after, .end = count * (after + bytes), .kept = true, .place = plan.bytes});
-        plan.bytes += count * bytes;
-    };
-    keep(0, layout.position_bytes);
-    if (layout.has_levels) keep(layout.levels_after, 1);
-    for (const FurtherArray& array : layout.further) {
-        if (std::ranges::find(kept, array.name, &FurtherArray::name) == kept.end()) {
-            plan.pieces.push_back({.begin = count * array.after, .end = count * (array.after + array.bytes)});
-            continue;
-        }
-        // So that its numbers can be read where they lie.
-        if (count != 0) plan.bytes = rounded_up(plan.bytes, size_of(*array.type));
-        plan.arrays.push_back(
-            {.name = array.name, .type = *array.type, .components = array.components, .offset = plan.bytes});
-        keep(array.after, array.bytes);
+std::vector<std::vector<FramePiece>> begin_frame(std::span<const FramePart> parts, const Limits& limits,
+                                                 InputFrame& frame) {
+    const auto with_particles = std::ranges::find_if(parts, [](const auto& part) { return part.particle_count != 0; });
+    const FramePart& lead = with_particles != parts.end() ? *with_particles : parts.front();
+    for (const FramePart& part : parts) require_same_form(parts, lead, part);
+    const std::size_t count = particles_of(parts, lead, limits);
+    Places places = places_of(lead, count);
+    try {
+        frame.allocate(places.bytes);
+    } catch (const LimitReached& error) {
+        throw LimitReached(error.limit(), fmt::format("frame {}: {}", lead.index, error.what()));
+    } catch (const LimitExceeded& error) {
+        throw LimitExceeded(fmt::format("frame {}: {}", lead.index, error.what()));
     }
-    std::erase_if(plan.pieces, [](const FramePlan::Piece& piece) { return piece.begin == piece.end; });
-    std::ranges::sort(plan.pieces, {}, &FramePlan::Piece::begin);
-    return plan;
+    frame.index = lead.index;
+    frame.simulation_time = lead.simulation_time;
+    frame.particle_count = count;
+    frame.quantized = lead.layout.quantized;
+    frame.quantization_box = lead.quantization_box;
+    frame.has_levels = lead.layout.has_levels;
+    std::vector<std::vector<FramePiece>> pieces;
+    std::size_t first = 0;
+    for (const FramePart& part : parts) {
+        pieces.push_back(pieces_of(part, first, places));
+        first += static_cast<std::size_t>(part.particle_count);
+    }
+    frame.keep_arrays(std::move(places.arrays));
+    return pieces;
 }
 
 }  // namespace meniscus::server

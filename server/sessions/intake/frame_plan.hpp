@@ -3,25 +3,32 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "conversion/particle_arrays.hpp"
 #include "meniscus/settings.hpp"
 #include "sessions/intake/input_frame.hpp"
+#include "sessions/limits/limits.hpp"
 
 namespace meniscus::server {
 
-struct FramePlan {
-    /// The bytes of one array as they arrive.
-    struct Piece {
-        std::size_t begin = 0;  ///< among all that arrive
-        std::size_t end = 0;
-        bool kept = false;
-        std::size_t place = 0;  ///< in InputFrame::bytes, if they are kept
-    };
-    std::vector<Piece> pieces;  ///< one behind the other, none of them empty
-    std::vector<InputFrame::KeptArray> arrays;
-    std::size_t bytes = 0;  ///< of InputFrame::bytes
+/// What one stream announces of a frame: all of it, or its part.
+struct FramePart {
+    std::uint64_t index = 0;
+    double simulation_time = 0.0;
+    std::uint64_t particle_count = 0;
+    conversion::ParticleLayout layout;
+    std::vector<conversion::FurtherArray> kept;  ///< see arrays_to_keep()
+    Box quantization_box;
+};
+
+/// The bytes of one array as they arrive over a stream.
+struct FramePiece {
+    std::size_t begin = 0;  ///< among all that arrive
+    std::size_t end = 0;
+    bool kept = false;
+    std::size_t place = 0;  ///< in InputFrame::bytes, if they are kept
 };
 
 /// The arrays of which a session with these settings makes attributes, in the order in which they arrive. Throws
@@ -30,12 +37,14 @@ struct FramePlan {
 std::vector<conversion::FurtherArray> arrays_to_keep(const conversion::ParticleLayout& layout,
                                                      std::uint64_t particle_count, const Settings& settings);
 
-/// The most bytes per particle that such a frame takes here.
-std::uint64_t kept_bytes_per_particle(const conversion::ParticleLayout& layout,
-                                      const std::vector<conversion::FurtherArray>& kept);
+/// All bytes of the part, as they arrive. Throws LimitExceeded for more than can be counted.
+std::size_t arriving_bytes(const FramePart& part);
 
-/// count: of particles, small enough that all of the frame's bytes can be counted.
-FramePlan plan_frame(const conversion::ParticleLayout& layout, const std::vector<conversion::FurtherArray>& kept,
-                     std::size_t count);
+/// Begins the frame that consists of these parts, the particles of one behind those of the part before: gives it memory
+/// for all of them. Returns where the bytes of each part go: pieces one behind the other, none of them empty. Throws
+/// InvalidInput for parts that do not fit each other, LimitExceeded for a frame past a limit, before it takes memory.
+/// parts: of one index, at least one.
+std::vector<std::vector<FramePiece>> begin_frame(std::span<const FramePart> parts, const Limits& limits,
+                                                 InputFrame& frame);
 
 }  // namespace meniscus::server

@@ -1,4 +1,4 @@
-// One uploading stream in its session.
+// What uploads to a session: one stream, or one for each part of the frames.
 #pragma once
 
 #include <atomic>
@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct UploadOptions {
     UploadPolicy policy = UploadPolicy::every_frame;
     std::uint32_t nth = 1;                   ///< at least 1; for UploadPolicy::every_nth
     std::uint64_t run_id = 0;                ///< 0: a run of its own
+    std::uint32_t parts = 1;                 ///< streams, each of which sends a part of every frame
     std::chrono::milliseconds reconnect{0};  ///< for how long its simulator tries to come back
 };
 
@@ -50,29 +52,33 @@ struct Run {
     std::uint64_t id = 0;
     std::optional<std::uint64_t> last_shown = {};     ///< index of a frame; used by the reconstructing thread alone
     std::optional<std::uint64_t> last_finished = {};  ///< index of a frame; used by the encoding thread alone
+    /// Whose streams have ended well, and do not come again; with the lock of JointUploads.
+    std::set<std::uint32_t> finished_parts = {};
 };
 
 struct Upload {
     using Clock = std::chrono::steady_clock;
 
-    /// wake: see OutputQueue. stop_receiving: called when the frame on its way in is to be the last. stop_at_once: when
-    /// it is not wanted any more; the stream then ends with the error.
+    /// wake: see OutputQueue, whose readers are the parts. stop_receiving: called when the frame on its way in is to be
+    /// the last. stop_at_once: when it is not wanted any more; the stream then ends with the error.
     Upload(
-        const UploadOptions& upload_options, std::function<void()> wake, std::function<void()> stop_receiving,
+        const UploadOptions& upload_options, std::function<void(std::size_t)> wake,
+        std::function<void()> stop_receiving,
         std::function<void(std::exception_ptr)> stop_at_once = [](const std::exception_ptr&) {})
         : options(upload_options),
-          output(std::move(wake)),
+          output(std::move(wake), options.parts),
           drain(std::move(stop_receiving)),
           stop(std::move(stop_at_once)) {}
 
-    const UploadOptions options;
+    UploadOptions options;  ///< those of its answers are part 0's, and there before the first frame
     OutputQueue output;
     const std::function<void()> drain;
     const std::function<void(std::exception_ptr)> stop;
     std::shared_ptr<Run> run;  ///< set once, before others see the upload
 
     UploadPace pace;
-    std::uint64_t submitted = 0;  ///< frames, dropped ones included; with the session's lock held
+    std::atomic<std::uint32_t> missing_parts{0};  ///< that have not come yet
+    std::uint64_t submitted = 0;                  ///< frames, dropped ones included; with the session's lock held
     UnreportedDrops unreported_drops;
     std::atomic<std::uint64_t> owed{0};  ///< frames submitted and not yet answered
     std::atomic<Clock::time_point> last_activity{Clock::now()};

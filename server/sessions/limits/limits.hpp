@@ -15,6 +15,8 @@ namespace meniscus::server {
 
 /// The most bytes of one chunk of particle data, and of one part of a brick.
 inline constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
+/// Streams that may each send a part of every frame.
+inline constexpr std::uint32_t parts_per_frame = 1024;
 /// The range of Limits::message_bytes: from a full chunk and its envelope to the most that gRPC can count.
 inline constexpr std::size_t min_message_bytes = chunk_bytes + 1024;
 inline constexpr std::size_t max_message_bytes = std::numeric_limits<int>::max();
@@ -202,6 +204,7 @@ struct Limits {
                .argument = "N",
                .gauge = "chunks_per_frame"});
         visit("chunk_bytes", chunk_bytes, {.unit = "bytes", .gauge = "chunk"});
+        visit("parts_per_frame", parts_per_frame, {.gauge = "parts_per_frame"});
         visit("message_bytes", self.message_bytes,
               {.help = "Size of one message, as 4M",
                .unit = "bytes",

@@ -18,7 +18,8 @@ public:
         unauthenticated,
         permission_denied,
         unimplemented,
-        data_loss
+        data_loss,
+        aborted  ///< another call, which has ended, takes this one along
     };
 
     Refusal(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}

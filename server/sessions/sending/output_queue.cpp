@@ -1,18 +1,30 @@
 #include "sessions/sending/output_queue.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace meniscus::server {
 
-void OutputQueue::push(SharedMessage message) {
-    bool wake = false;
+void OutputQueue::push(const SharedMessage& message) {
+    std::vector<std::size_t> waiting;
     {
         const std::lock_guard lock(mutex_);
         if (finished_ || closed_) return;
-        messages_.push_back(std::move(message));
-        wake = std::exchange(consumer_waits_, false);
+        for (Reader& reader : readers_) reader.messages.push_back(message);
+        waiting = to_wake();
     }
-    if (wake) wake_();
+    wake(waiting);
+}
+
+void OutputQueue::push_to(std::size_t reader, SharedMessage message) {
+    bool waits = false;
+    {
+        const std::lock_guard lock(mutex_);
+        if (finished_ || closed_) return;
+        readers_[reader].messages.push_back(std::move(message));
+        waits = std::exchange(readers_[reader].waits, false);
+    }
+    if (waits) wake_(reader);
 }
 
 void OutputQueue::finish(std::exception_ptr error) {
@@ -24,18 +36,36 @@ void OutputQueue::abort(std::exception_ptr error) {
 }
 
 void OutputQueue::end(std::exception_ptr error, bool drop) {
-    bool wake = false;
+    std::vector<std::size_t> waiting;
     {
         const std::lock_guard lock(mutex_);
-        if (drop) messages_.clear();
+        if (drop)
+            for (Reader& reader : readers_) reader.messages.clear();
         if (finished_) return;
         finished_ = true;
         aborted_ = drop;
         error_ = std::move(error);
-        wake = std::exchange(consumer_waits_, false) || drop;
+        waiting = to_wake(drop);
     }
     changed_.notify_all();
-    if (wake) wake_();
+    wake(waiting);
+}
+
+bool OutputQueue::is_room() const {
+    return finished_ || closed_ || std::ranges::all_of(readers_, [](const Reader& reader) {
+               return reader.messages.size() <= room_for_a_frame;
+           });
+}
+
+std::vector<std::size_t> OutputQueue::to_wake(bool all) {
+    std::vector<std::size_t> readers;
+    for (std::size_t i = 0; i < readers_.size(); ++i)
+        if (std::exchange(readers_[i].waits, false) || all) readers.push_back(i);
+    return readers;
+}
+
+void OutputQueue::wake(const std::vector<std::size_t>& readers) const {
+    for (const std::size_t reader : readers) wake_(reader);
 }
 
 bool OutputQueue::wait_for_room() {
@@ -66,17 +96,23 @@ bool OutputQueue::aborted() const {
     return aborted_;
 }
 
-OutputQueue::Next OutputQueue::take() {
+bool OutputQueue::finished() const {
     const std::lock_guard lock(mutex_);
-    if (!messages_.empty()) {
-        SharedMessage message = std::move(messages_.front());
-        messages_.pop_front();
+    return finished_;
+}
+
+OutputQueue::Next OutputQueue::take(std::size_t reader) {
+    const std::lock_guard lock(mutex_);
+    auto& messages = readers_[reader].messages;
+    if (!messages.empty()) {
+        SharedMessage message = std::move(messages.front());
+        messages.pop_front();
         taken_since_ += message->size();
         changed_.notify_all();
         return message;
     }
     if (finished_) return End{error_};
-    consumer_waits_ = true;
+    readers_[reader].waits = true;
     return Nothing{};
 }
 
@@ -84,7 +120,7 @@ void OutputQueue::close() {
     {
         const std::lock_guard lock(mutex_);
         closed_ = true;
-        messages_.clear();
+        for (Reader& reader : readers_) reader.messages.clear();
     }
     changed_.notify_all();
 }

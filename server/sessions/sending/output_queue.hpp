@@ -1,4 +1,4 @@
-// Messages on their way to the simulator that uploads: every one, in order.
+// Messages on their way to the simulator that uploads: every one, in order, to each of its streams.
 #pragma once
 
 #include <chrono>
@@ -10,13 +10,15 @@
 #include <mutex>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "sessions/limits/upload_pace.hpp"
 #include "sessions/sending/encoded_frame.hpp"
 
 namespace meniscus::server {
 
-/// Bounded to one frame and a few messages: the producer waits for room before it begins a frame.
+/// Bounded to one frame and a few messages: the producer waits for room before it begins a frame. Each of its readers
+/// takes its own messages, and the slowest of them is waited for.
 class OutputQueue {
 public:
     /// Frames begin only while no more than this many messages wait.
@@ -35,12 +37,16 @@ public:
         std::size_t bytes_taken = 0;
     };
 
-    /// wake: called once, by a producing thread, after take() has found nothing and there is something again; and by
-    /// abort().
-    explicit OutputQueue(std::function<void()> wake) : wake_(std::move(wake)) {}
+    /// wake: called once for a reader, by a producing thread, after its take() has found nothing and there is something
+    /// again; and by abort(). readers: at least 1.
+    explicit OutputQueue(std::function<void(std::size_t reader)> wake, std::size_t readers = 1)
+        : wake_(std::move(wake)), readers_(readers) {}
 
     // The producer's side.
-    void push(SharedMessage message);
+    void push(const SharedMessage& message);
+    /// To one reader alone.
+    void push_to(std::size_t reader, SharedMessage message);
+    std::size_t readers() const noexcept { return readers_.size(); }
     /// No messages follow. Later calls do nothing.
     void finish(std::exception_ptr error);
     /// Ends the queue as finish() does, and drops the messages that wait.
@@ -52,22 +58,32 @@ public:
     /// None: the producer does not wait, or what waits is taken fast enough. Ask again and again.
     std::optional<Stall> too_slow(const LeastPace& least, Clock::time_point now);
 
-    // The consumer's side, one thread at a time.
-    Next take();
-    /// The consumer is gone: nothing is kept any more.
+    // The consumers' side, of each reader one thread at a time.
+    Next take(std::size_t reader = 0);
+    /// The consumers are gone: nothing is kept any more.
     void close();
     /// Whether its messages were dropped for an error.
     bool aborted() const;
+    /// Whether no message follows those that wait.
+    bool finished() const;
 
 private:
-    void end(std::exception_ptr error, bool drop);
-    /// With the lock held.
-    bool is_room() const { return finished_ || closed_ || messages_.size() <= room_for_a_frame; }
+    struct Reader {
+        std::deque<SharedMessage> messages;
+        bool waits = false;
+    };
 
-    const std::function<void()> wake_;
+    void end(std::exception_ptr error, bool drop);
+    // With the lock held.
+    bool is_room() const;
+    /// The readers that wait, or all, to be woken outside of the lock. They wait no longer.
+    std::vector<std::size_t> to_wake(bool all = false);
+    void wake(const std::vector<std::size_t>& readers) const;
+
+    const std::function<void(std::size_t)> wake_;
     mutable std::mutex mutex_;  ///< for what follows
     std::condition_variable changed_;
-    std::deque<SharedMessage> messages_;
+    std::vector<Reader> readers_;
     std::exception_ptr error_;
     std::optional<Clock::time_point> producer_waits_since_;
     std::size_t taken_since_ = 0;  ///< bytes
@@ -75,7 +91,6 @@ private:
     bool finished_ = false;
     bool aborted_ = false;
     bool closed_ = false;
-    bool consumer_waits_ = false;
 };
 
 }  // namespace meniscus::server

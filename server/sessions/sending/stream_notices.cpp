@@ -17,6 +17,8 @@ v1::DropReason to_wire(DropReason reason) {
             return v1::DROP_REASON_REPLACED;
         case DropReason::not_nth:
             return v1::DROP_REASON_NOT_NTH;
+        case DropReason::incomplete:
+            return v1::DROP_REASON_INCOMPLETE;
     }
     return v1::DROP_REASON_UNSPECIFIED;
 }

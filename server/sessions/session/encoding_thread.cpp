@@ -30,6 +30,11 @@ MeshFormat stream_format(const UploadOptions& options, const Settings& settings)
     return stream_format(options.normal_bits, options.codec, options.attributes, settings);
 }
 
+/// The mesh goes to part 0.
+void tell_other_parts(Upload& upload, const SharedMessage& statistics) {
+    for (std::size_t part = 1; part < upload.output.readers(); ++part) upload.output.push_to(part, statistics);
+}
+
 }  // namespace
 
 EncodingThread::EncodingThread(const SessionContext& context, Watchers& watchers, Ends ends)
@@ -108,7 +113,8 @@ void EncodingThread::perform(Encode& task) {
         if (upload.options.receive_meshes) {
             const MeshFormat format = stream_format(upload.options, context_.settings);
             const auto encoded = encode_newest(
-                format, [&](const SharedMessage& message) { upload.output.push(message); }, upload.options.spray);
+                format, [&](const SharedMessage& message) { upload.output.push_to(0, message); }, upload.options.spray);
+            tell_other_parts(upload, encoded->end);
             count_answer(encoded->statistics);
             watchers_.publish(format, encoded, Watchers::Keep::until_the_next_frame);
         } else {
@@ -132,9 +138,12 @@ void EncodingThread::answer_again(Encode& task) {
     Upload& upload = *task.upload;
     try {
         if (upload.options.receive_meshes)
-            encode_frame(
-                *task.frame, stream_format(upload.options, context_.settings), nullptr, *context_.shared.workers,
-                scratch_, [&](const SharedMessage& message) { upload.output.push(message); }, upload.options.spray);
+            tell_other_parts(upload, encode_frame(
+                                         *task.frame, stream_format(upload.options, context_.settings), nullptr,
+                                         *context_.shared.workers, scratch_,
+                                         [&](const SharedMessage& message) { upload.output.push_to(0, message); },
+                                         upload.options.spray)
+                                         ->end);
         else
             upload.output.push(serialize(statistics_of(*task.frame)));
     } catch (const DeviceError&) {
@@ -156,7 +165,10 @@ void EncodingThread::wait_for_room(Upload& upload) {
 void EncodingThread::perform(ReportDrop& task) {
     Upload& upload = *task.upload;
     wait_for_room(upload);
-    upload.output.push(frame_dropped_message(task.dropped));
+    if (const auto part = task.dropped.part)
+        upload.output.push_to(*part, frame_dropped_message(task.dropped));
+    else
+        upload.output.push(frame_dropped_message(task.dropped));
     upload.unreported_drops.report();
     answered(upload);
 }

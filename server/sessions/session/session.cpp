@@ -75,7 +75,7 @@ std::string Session::instance() const {
     return fmt::format("{:x}.{}", created.count(), runs_);
 }
 
-std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::function<void()> wake,
+std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::function<void(std::size_t)> wake,
                                              std::function<void()> drain,
                                              std::function<void(std::exception_ptr)> stop) {
     auto upload = std::make_shared<Upload>(options, std::move(wake), std::move(drain), std::move(stop));
@@ -150,6 +150,15 @@ void Session::submit(std::shared_ptr<Upload> upload, InputFrame& input) {
             unused.push_back(&input);
     }
     for (InputFrame* each : unused) inputs_.give_back(*each);
+}
+
+void Session::report_incomplete(std::shared_ptr<Upload> upload, std::uint32_t part, std::uint64_t index) {
+    const std::lock_guard lock(mutex_);
+    if (upload_ != upload) return;
+    ++upload->owed;
+    upload->unreported_drops.add();
+    received_.put({.upload = std::move(upload),
+                   .dropped = DroppedFrame{.index = index, .reason = DropReason::incomplete, .part = part}});
 }
 
 bool Session::is_to_be_reconstructed(const std::shared_ptr<Upload>& upload) const {
@@ -334,12 +343,19 @@ void Session::end_idle_upload(std::chrono::steady_clock::time_point now, bool me
     std::shared_ptr<Upload> idle;
     {
         const std::lock_guard lock(mutex_);
-        if (!upload_ || limits().idle_time.count() == 0) return;
-        if (upload_->owed == 0 && !upload_->pace.paused() && now - upload_->last_activity.load() >= limits().idle_time)
-            idle = upload_;
-        if (idle) set_upload(nullptr);
+        if (!upload_ || upload_->owed != 0 || upload_->pace.paused()) return;
+        const auto orphan_time = upload_->missing_parts != 0 ? limits().orphan_time : std::chrono::milliseconds(0);
+        const auto time = orphan_time.count() != 0 ? orphan_time : limits().idle_time;
+        if (time.count() == 0 || now - upload_->last_activity.load() < time) return;
+        idle = upload_;
+        set_upload(nullptr);
     }
-    if (idle)
+    if (idle->missing_parts != 0)
+        idle->output.finish(std::make_exception_ptr(Refusal(
+            Refusal::Kind::failed_precondition,
+            fmt::format("{} of the {} parts of the frames have not come for {:.3g} s", idle->missing_parts.load(),
+                        idle->options.parts, seconds_of(now - idle->last_activity.load())))));
+    else
         idle->output.finish(std::make_exception_ptr(IdleStream(
             fmt::format("nothing has arrived for {:.3g} s; the server keeps an idle stream for {:.3g} s: open another "
                         "when there are frames",

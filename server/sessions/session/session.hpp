@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -22,6 +23,7 @@
 #include "sessions/limits/frame_rate.hpp"
 #include "sessions/sending/frame_statistics.hpp"
 #include "sessions/session/encoding_thread.hpp"
+#include "sessions/session/joint_uploads.hpp"
 #include "sessions/session/reconstruct_functions.hpp"
 #include "sessions/session/reconstructing_thread.hpp"
 #include "sessions/session/session_context.hpp"
@@ -81,17 +83,21 @@ public:
     /// A stream that resumes the session's run takes the place of the one before, which ends. Throws Refusal if a
     /// stream of another run uploads, or the session ends.
     std::shared_ptr<Upload> open_upload(
-        const UploadOptions& options, std::function<void()> wake, std::function<void()> drain,
+        const UploadOptions& options, std::function<void(std::size_t part)> wake, std::function<void()> drain,
         std::function<void(std::exception_ptr)> stop = [](const std::exception_ptr&) {});
     void request_input(SlotPool<InputFrame>::Waiter waiter) { inputs_.request(std::move(waiter)); }
     void return_input(InputFrame& input) { inputs_.give_back(input); }
     /// Call it before a frame is begun. Throws LimitExceeded for one too many in a second.
     void admit_frame(std::uint64_t index);
     void submit(std::shared_ptr<Upload> upload, InputFrame& input);
+    /// Tells one part of the upload, behind the answers that it is owed, that its part of the frame was passed over.
+    void report_incomplete(std::shared_ptr<Upload> upload, std::uint32_t part, std::uint64_t index);
     /// Frames that were submitted before are still answered; then the upload's output ends with the error.
     void end_upload(std::shared_ptr<Upload> upload, std::exception_ptr error);
     /// Nobody reads any more: its frames that wait are forgotten.
     void cancel_upload(const std::shared_ptr<Upload>& upload, UploadEnd end = UploadEnd::answered);
+
+    JointUploads& joint_uploads() noexcept { return joint_uploads_; }
 
     // Watching.
 
@@ -104,8 +110,9 @@ public:
     /// Lets the frame on its way in be the last, then ends the watchers. grace: announced to streams and watchers.
     /// Returns at once.
     void drain(std::chrono::duration<double> grace);
-    /// Ends an upload that has been idle for Limits::idle_time, or whose frame comes too slowly, or whose answers are
-    /// taken too slowly while frames of others wait for the bytes of its own, or are refused for its memory.
+    /// Ends an upload that has been idle for Limits::idle_time, or for Limits::orphan_time while parts of it are
+    /// missing; or whose frame comes too slowly, or whose answers are taken too slowly while frames of others wait for
+    /// the bytes of its own, or are refused for its memory.
     void end_idle_upload(std::chrono::steady_clock::time_point now, bool memory_is_short);
     /// Why the session is to end, for the log: it has been without streams, watchers and calls for Limits::idle_time,
     /// or for Limits::orphan_time where its simulator has vanished without a word, or has never come though its creator
@@ -178,6 +185,7 @@ private:
     Watchers watchers_;
     const std::function<FrameUpload(const ParticleFrame& frame)> send_ahead_;  ///< may be none
     FrameStop frame_stop_;
+    JointUploads joint_uploads_;
 
     mutable std::mutex mutex_;  ///< for what follows; taken before the lock of `watchers_`
     FrameRate frame_rate_;

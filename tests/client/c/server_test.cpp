@@ -99,6 +99,28 @@ TEST_F(CServer, GivesTheMeshesOfTheProcessInOrder) {
     EXPECT_EQ(dropped, 0U);
 }
 
+TEST_F(CServer, JoinsThePartsOfFramesThatSeveralSessionsPush) {
+    const CSession first = open({{"parts", "2"}, {"part", "0"}, {"run", "18446744073709551615"}});
+    const char* const id = meniscus_session_id(first.get());
+    const CSession second = open({{"session", id}, {"parts", "2"}, {"part", "1"}, {"run", "18446744073709551615"}});
+    const Particles whole = splash(1, 5);
+    Particles halves[2];
+    for (std::size_t i = 0; i < whole.count(); ++i)
+        halves[i % 3 == 0 ? 0 : 1].add(whole.positions[3 * i], whole.positions[3 * i + 1], whole.positions[3 * i + 2]);
+    ASSERT_EQ(push(first, halves[0], 4), MENISCUS_OK) << meniscus_error_message();
+    ASSERT_EQ(push(second, halves[1], 4), MENISCUS_OK) << meniscus_error_message();
+    CFrame frame;
+    ASSERT_EQ(meniscus_session_next(second.get(), patience, frame.out()), MENISCUS_OK) << meniscus_error_message();
+    meniscus_statistics statistics = MENISCUS_STATISTICS_INIT;
+    ASSERT_EQ(meniscus_frame_statistics(frame.get(), &statistics), MENISCUS_OK);
+    EXPECT_EQ(statistics.particles, whole.count());
+    ASSERT_EQ(meniscus_session_next(first.get(), patience, frame.out()), MENISCUS_OK) << meniscus_error_message();
+    EXPECT_EQ(sha256_of(frame), mesh_sha256(reconstruct(default_settings(), whole.frame())));
+    for (const CSession* session : {&first, &second}) EXPECT_EQ(meniscus_session_finish(session->get()), MENISCUS_OK);
+    for (const CSession* session : {&first, &second})
+        EXPECT_EQ(meniscus_session_next(session->get(), patience, frame.out()), MENISCUS_ENDED);
+}
+
 TEST_F(CServer, DistinguishesNothingYetFromEnded) {
     const CSession session = open();
     const CWatcher watcher = watch(session);

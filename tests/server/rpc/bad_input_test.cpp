@@ -13,7 +13,7 @@ namespace {
 
 std::vector<BadInputCase> all_cases() {
     std::vector<BadInputCase> all;
-    for (auto part : {message_order_cases(), frame_cases(), array_cases(), position_cases(), open_cases(),
+    for (auto part : {message_order_cases(), frame_cases(), array_cases(), position_cases(), open_cases(), part_cases(),
                       watch_cases(), session_cases(), recording_cases()})
         all.insert(all.end(), part.begin(), part.end());
     return all;

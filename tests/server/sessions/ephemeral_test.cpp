@@ -31,7 +31,7 @@ struct EphemeralSession : testing::Test {
     }
     static std::shared_ptr<Upload> open(Session& session, milliseconds reconnect = {}) {
         return session.open_upload(
-            {.run_id = 7, .reconnect = reconnect}, [] {}, [] {});
+            {.run_id = 7, .reconnect = reconnect}, [](std::size_t /*part*/) {}, [] {});
     }
     static void wait_for_end(Session& session) {
         while (!session.without_stream(Clock::now())) std::this_thread::yield();
@@ -186,7 +186,7 @@ TEST_F(FullRegistry, NamesIdleSessionsThatTheCallerMayDeleteAndCountsTheOthers) 
     registry.create(id_of(1), test::settings(), creator("ada"), {.description = description});
     const auto busy = registry.create(id_of(2), test::settings(), creator("ada")).session;
     const auto upload = busy->open_upload(
-        {}, [] {}, [] {});
+        {}, [](std::size_t /*part*/) {}, [] {});
     for (int i = 3; i <= 8; ++i) registry.create(id_of(i), test::settings(), creator("ben"));
     const std::string text = refusal(creator("ada"));
     EXPECT_NE(text.find("8 sessions are open; the server holds at most 8; you may delete, of those without a stream, "

@@ -13,6 +13,7 @@
 
 #include "conversion/particle_arrays.hpp"
 #include "meniscus/error.hpp"
+#include "whole_frames.hpp"
 
 namespace meniscus::server {
 namespace {
@@ -45,7 +46,7 @@ struct FrameAssembly : testing::Test {
     }
 
     Limits limits{.particles_per_frame = 1000, .bytes_per_session = 6000};
-    FrameAssembler assembler{limits};
+    test::WholeFrames assembler{limits};
     InputFrame frame{std::make_shared<MemoryAccount>(limits.bytes_per_session)};
 };
 
@@ -55,7 +56,7 @@ TEST_F(FrameAssembly, PutsChunksTogetherWhereverTheyAreCut) {
     message.set_simulation_time(1.5);
     assembler.begin(message, frame);
     for (const std::size_t bytes : {1U, 0U, 30U, 8U}) assembler.append(chunk(bytes), frame);
-    assembler.end(frame);
+    assembler.end();
     EXPECT_EQ(frame.index, 7U);
     EXPECT_EQ(frame.simulation_time, 1.5);
     EXPECT_EQ(frame.view().count(), 3U);
@@ -66,7 +67,7 @@ TEST_F(FrameAssembly, PutsChunksTogetherWhereverTheyAreCut) {
 
 TEST_F(FrameAssembly, TakesAnEmptyFrame) {
     assembler.begin(begin(0, 0), frame);
-    assembler.end(frame);
+    assembler.end();
     EXPECT_EQ(frame.view().count(), 0U);
 }
 
@@ -74,7 +75,7 @@ TEST_F(FrameAssembly, KeepsItsMemoryBetweenFrames) {
     assembler.begin(begin(0, 100), frame);
     const auto* memory = frame.bytes.data();
     assembler.append(chunk(1200), frame);
-    assembler.end(frame);
+    assembler.end();
     assembler.begin(begin(1, 50), frame);
     EXPECT_EQ(frame.bytes.data(), memory);
 }
@@ -86,20 +87,20 @@ TEST_F(FrameAssembly, RefusesACountPastTheLimitBeforeItAllocates) {
 }
 
 TEST_F(FrameAssembly, RefusesACountWhoseBytesOverflowWithoutAnyLimit) {
-    FrameAssembler unlimited{Limits{}};
+    test::WholeFrames unlimited{Limits{}};
     EXPECT_THROW(unlimited.begin(begin(0, std::numeric_limits<std::uint64_t>::max()), frame), LimitExceeded);
 }
 
 TEST_F(FrameAssembly, RefusesIndicesThatDoNotIncrease) {
     assembler.begin(begin(5, 0), frame);
-    assembler.end(frame);
+    assembler.end();
     EXPECT_THROW(assembler.begin(begin(5, 0), frame), InvalidInput);
     EXPECT_THROW(assembler.begin(begin(4, 0), frame), InvalidInput);
 }
 
 TEST_F(FrameAssembly, RefusesMessagesOutOfOrder) {
     EXPECT_THROW(assembler.append(chunk(1), frame), InvalidInput);
-    EXPECT_THROW(assembler.end(frame), InvalidInput);
+    EXPECT_THROW(assembler.end(), InvalidInput);
     assembler.begin(begin(0, 1), frame);
     EXPECT_THROW(assembler.begin(begin(1, 1), frame), InvalidInput);
     EXPECT_THROW(assembler.end_of_stream(), InvalidInput);
@@ -108,17 +109,17 @@ TEST_F(FrameAssembly, RefusesMessagesOutOfOrder) {
 TEST_F(FrameAssembly, RefusesBytesThatDoNotMatchTheCount) {
     assembler.begin(begin(0, 1), frame);
     assembler.append(chunk(11), frame);
-    EXPECT_THROW(assembler.end(frame), InvalidInput);
+    EXPECT_THROW(assembler.end(), InvalidInput);
     EXPECT_THROW(assembler.append(chunk(2), frame), InvalidInput);
 }
 
 TEST_F(FrameAssembly, TakesAsManyChunksAsTheLimitSaysAndNoEmptyOneMore) {
     limits.chunks_per_frame = 3;
-    FrameAssembler limited{limits};
+    test::WholeFrames limited{limits};
     for (std::uint64_t i = 0; i < 2; ++i) {
         limited.begin(begin(i, 1), frame);
         for (const std::size_t bytes : {0U, 0U, 12U}) limited.append(chunk(bytes), frame);
-        limited.end(frame);
+        limited.end();
     }
     limited.begin(begin(2, 1), frame);
     for (const std::size_t bytes : {0U, 0U, 11U}) limited.append(chunk(bytes), frame);
@@ -131,7 +132,7 @@ TEST_F(FrameAssembly, RefusesAFrameOfMoreBytesThanMayEverBeInFlight) {
     InputFrame second{nullptr, in_flight};
     assembler.begin(begin(0, 100), first);
     EXPECT_LT(in_flight->bytes(), 1200U) << "what is announced has not arrived";
-    FrameAssembler other{limits};
+    test::WholeFrames other{limits};
     EXPECT_THROW(other.begin(begin(0, 101), second), LimitExceeded);
     other.begin(begin(1, 5), second);
     EXPECT_EQ(in_flight->bytes(), 60U);
@@ -185,7 +186,7 @@ struct ArraysOfAFrame : FrameAssembly {
         return bytes;
     }
     /// In chunks of this size.
-    void receive(FrameAssembler& receiver, const std::vector<SentArray>& arrays, std::size_t size = 7) {
+    void receive(test::WholeFrames& receiver, const std::vector<SentArray>& arrays, std::size_t size = 7) {
         receiver.begin(begin_of(arrays, next_index++), frame);
         std::string all;
         for (const SentArray& array : arrays) all += bytes_of(array);
@@ -194,10 +195,10 @@ struct ArraysOfAFrame : FrameAssembly {
             message.set_data(all.substr(at, size));
             receiver.append(message, frame);
         }
-        receiver.end(frame);
-        EXPECT_EQ(receiver.arrived(), frame.bytes.size());
+        receiver.end();
+        EXPECT_EQ(receiver.take_kept(), test::bytes_of(frame.view()));
     }
-    std::string refusal(FrameAssembler& receiver, const std::vector<SentArray>& arrays) {
+    std::string refusal(test::WholeFrames& receiver, const std::vector<SentArray>& arrays) {
         try {
             receiver.begin(begin_of(arrays, next_index), frame);
         } catch (const InvalidInput& error) {
@@ -213,7 +214,7 @@ struct ArraysOfAFrame : FrameAssembly {
 };
 
 TEST_F(ArraysOfAFrame, AreKeptWhereTheSettingsNameThemWhateverTheirOrderAndTheCuts) {
-    FrameAssembler receiver(limits, naming({"velocity", "color", "id"}));
+    test::WholeFrames receiver(limits, naming({"velocity", "color", "id"}));
     const std::vector<std::vector<SentArray>> orders{
         {sent_positions, sent_levels, sent_velocity, sent_half, sent_color, sent_id},
         {sent_positions, sent_half, sent_color, sent_id, sent_velocity, sent_levels},
@@ -238,6 +239,62 @@ TEST_F(ArraysOfAFrame, AreKeptWhereTheSettingsNameThemWhateverTheirOrderAndTheCu
         }
 }
 
+TEST_F(ArraysOfAFrame, OfPartsLieBehindEachOtherWhateverTheirOrderInEachPart) {
+    const Settings named = naming({"velocity", "id"});
+    const std::vector<std::vector<SentArray>> orders{{sent_positions, sent_velocity, sent_levels, sent_id},
+                                                     {sent_positions, sent_id, sent_half, sent_velocity, sent_levels}};
+    std::vector<FrameAssembler> assemblers(orders.size(), FrameAssembler(limits, named));
+    std::vector<FramePart> parts;
+    for (std::size_t p = 0; p < orders.size(); ++p) parts.push_back(assemblers[p].announce(begin_of(orders[p])));
+    const auto pieces = begin_frame(parts, limits, frame);
+    for (std::size_t p = orders.size(); p-- > 0;) {
+        assemblers[p].place(parts[p], pieces[p]);
+        v1::FrameChunk message;
+        for (const SentArray& array : orders[p]) message.mutable_data()->append(bytes_of(array));
+        assemblers[p].append(message, frame);
+        assemblers[p].end();
+    }
+    const ParticleFrame view = frame.view();
+    const auto twice = [](const SentArray& array) { return bytes_of(array) + bytes_of(array); };
+    EXPECT_EQ(text(std::as_bytes(view.positions)), twice(sent_positions));
+    EXPECT_EQ(text(std::as_bytes(view.levels)), twice(sent_levels));
+    ASSERT_EQ(view.arrays.size(), 2U);
+    EXPECT_EQ(text(view.arrays[0].data), twice(sent_velocity));
+    EXPECT_EQ(text(view.arrays[1].data), twice(sent_id));
+}
+
+TEST_F(ArraysOfAFrame, AreThoseOfAllParts) {
+    Settings all;
+    all.all_attributes = true;
+    const FrameAssembler receiver(limits, all);
+    SentArray wide = sent_velocity;
+    wide.components = 4;
+    wide.particle_bytes = 16;
+    const auto refusal_of = [&](const std::vector<SentArray>& first,
+                                const std::vector<SentArray>& second) -> std::string {
+        const std::vector<FramePart> parts{receiver.announce(begin_of(first)), receiver.announce(begin_of(second))};
+        try {
+            begin_frame(parts, limits, frame);
+        } catch (const InvalidInput& error) {
+            return error.what();
+        }
+        return {};
+    };
+    EXPECT_EQ(
+        refusal_of({sent_positions, sent_velocity}, {sent_positions}),
+        "frame 0: array 'velocity' of part 1 is missing, and float32 of 3 components in part 0; in all parts of a "
+        "frame it is the same");
+    EXPECT_EQ(
+        refusal_of({sent_positions}, {sent_positions, sent_id}),
+        "frame 0: array 'id' of part 1 is uint32 of 1 component, and missing in part 0; in all parts of a frame it "
+        "is the same");
+    EXPECT_EQ(
+        refusal_of({sent_positions, sent_velocity}, {sent_positions, wide}),
+        "frame 0: array 'velocity' of part 1 is float32 of 4 components, and float32 of 3 components in part 0; in "
+        "all parts of a frame it is the same");
+    EXPECT_EQ(refusal_of({sent_positions, sent_half}, {sent_positions}), "") << "no attribute is made of it";
+}
+
 TEST_F(ArraysOfAFrame, ThatAreNotNamedArePassedOverAndTakeNoMemory) {
     receive(assembler, {sent_positions, sent_velocity, sent_half, sent_id});
     EXPECT_EQ(frame.bytes.size(), 36U);
@@ -248,7 +305,7 @@ TEST_F(ArraysOfAFrame, ThatAreNotNamedArePassedOverAndTakeNoMemory) {
 TEST_F(ArraysOfAFrame, AreAllKeptThatCanBeAttributesWhereTheSettingsSayAll) {
     Settings all;
     all.all_attributes = true;
-    FrameAssembler receiver(limits, all);
+    test::WholeFrames receiver(limits, all);
     receive(receiver, {sent_positions, sent_id, sent_half, sent_velocity});
     ASSERT_EQ(frame.view().arrays.size(), 2U);
     EXPECT_EQ(frame.view().arrays[0].name, "id");
@@ -256,7 +313,7 @@ TEST_F(ArraysOfAFrame, AreAllKeptThatCanBeAttributesWhereTheSettingsSayAll) {
 }
 
 TEST_F(ArraysOfAFrame, AreForgottenWithTheFrame) {
-    FrameAssembler receiver(limits, naming({"id"}));
+    test::WholeFrames receiver(limits, naming({"id"}));
     receive(receiver, {sent_positions, sent_id});
     InputFrame other{nullptr};
     other.take_from(frame);
@@ -269,7 +326,7 @@ TEST_F(ArraysOfAFrame, AreForgottenWithTheFrame) {
 }
 
 TEST_F(ArraysOfAFrame, AreRefusedByNameWhereOneIsMissingOrCannotBeAnAttribute) {
-    FrameAssembler receiver(limits, naming({"id", "velocity"}));
+    test::WholeFrames receiver(limits, naming({"id", "velocity"}));
     EXPECT_EQ(refusal(receiver, {sent_positions, sent_id, sent_color}),
               "frame 0: no array 'velocity', which the session's settings name as an attribute; the frame's further "
               "arrays are 'id', 'color'");
@@ -297,9 +354,9 @@ TEST_F(ArraysOfAFrame, AreRefusedByNameWhereOneIsMissingOrCannotBeAnAttribute) {
 
 TEST_F(ArraysOfAFrame, CountToTheLimitOfBytesWhereTheyAreKept) {
     limits.bytes_per_session = 3 * (12 + 12) - 1;
-    FrameAssembler keeps(limits, naming({"velocity"}));
+    test::WholeFrames keeps(limits, naming({"velocity"}));
     EXPECT_THROW(keeps.begin(begin_of({sent_positions, sent_velocity}), frame), LimitExceeded);
-    FrameAssembler passes(limits);
+    test::WholeFrames passes(limits);
     EXPECT_NO_THROW(passes.begin(begin_of({sent_positions, sent_velocity}), frame));
     EXPECT_EQ(passes.expected(), 72U);
 }
@@ -316,17 +373,17 @@ TEST_F(ArraysOfAFrame, AreSixteenOfAMillionParticlesExactlyWithinTheLimit) {
     message.set_particle_count(count);
     Limits exact{.bytes_per_session = count * (12 + 16 * 16)};
     InputFrame large{nullptr};
-    FrameAssembler receiver(exact, naming(names));
+    test::WholeFrames receiver(exact, naming(names));
     receiver.begin(message, large);
     EXPECT_EQ(large.bytes.size(), exact.bytes_per_session);
     EXPECT_EQ(large.view().arrays.size(), 16U);
     --exact.bytes_per_session;
-    FrameAssembler limited(exact, naming(names));
+    test::WholeFrames limited(exact, naming(names));
     EXPECT_THROW(limited.begin(message, large), LimitExceeded);
 }
 
 TEST_F(ArraysOfAFrame, CannotOverflowByArraysThatArePassedOver) {
-    FrameAssembler unlimited{Limits{}};
+    test::WholeFrames unlimited{Limits{}};
     v1::FrameBegin message = begin_of({sent_positions, {"wide", v1::ELEMENT_TYPE_FLOAT32, 16, 64}});
     message.set_particle_count(std::numeric_limits<std::int64_t>::max() / 70);
     EXPECT_THROW(unlimited.begin(message, frame), LimitExceeded);

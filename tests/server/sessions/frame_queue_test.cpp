@@ -16,7 +16,7 @@ struct Queue : testing::Test {
     }
     std::shared_ptr<Upload> upload() const {
         return std::make_shared<Upload>(
-            UploadOptions{}, [] {}, [] {});
+            UploadOptions{}, [](std::size_t /*part*/) {}, [] {});
     }
 
     FrameQueue queue;

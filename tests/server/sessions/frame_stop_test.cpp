@@ -122,9 +122,9 @@ TEST(FrameStop, EndsAFrameThatWasCanceledBeforeItBegan) {
     const auto flag = std::make_shared<StopFlag>();
     FrameStop stop(flag, std::make_shared<Timer>(), milliseconds(0));
     Upload upload(
-        {}, [] {}, [] {});
+        {}, [](std::size_t /*part*/) {}, [] {});
     Upload other(
-        {}, [] {}, [] {});
+        {}, [](std::size_t /*part*/) {}, [] {});
     stop.cancel(upload);
     EXPECT_FALSE(flag->is_raised());
     {

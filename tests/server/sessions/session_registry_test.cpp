@@ -96,7 +96,7 @@ TEST_F(Registry, TakesNoSessionsWhileItDrains) {
     registry.drain(std::chrono::seconds(1));
     EXPECT_THROW(registry.create(second_id, test::settings()), Refusal);
     EXPECT_THROW(session->open_upload(
-                     {}, [] {}, [] {}),
+                     {}, [](std::size_t /*part*/) {}, [] {}),
                  Refusal);
 }
 
@@ -107,7 +107,7 @@ TEST(IdleRegistry, ForgetsASessionThatNobodyHasUsedForAsLongAsTheLimitSaysAndNon
     const auto before = Clock::now();
     const auto used = registry.create(first_id, test::settings()).session;
     const auto upload = used->open_upload(
-        {}, [] {}, [] {});
+        {}, [](std::size_t /*part*/) {}, [] {});
     registry.create(second_id, test::settings());
     const auto after = Clock::now();
     registry.end_idle(before + limit - std::chrono::milliseconds(1));
@@ -166,7 +166,7 @@ TEST_F(BusyRegistry, GivesTheBytesOfADeletedSessionsFramesToOthers) {
     std::exception_ptr told;
     InputFrame* lent = nullptr;
     const auto upload = session->open_upload(
-        {}, [] {}, [] {},
+        {}, [](std::size_t /*part*/) {}, [] {},
         [&](std::exception_ptr error) {
             told = std::move(error);
             session->return_input(*std::exchange(lent, nullptr));
@@ -261,7 +261,7 @@ TEST(OrphanedRegistry, ForgetsASessionWhoseSimulatorVanishedUnlessItIsWatchedOrR
     const auto later = Clock::now() + 10 * limit;
     const auto open = [](Session& session) {
         return session.open_upload(
-            {.run_id = 7}, [] {}, [] {});
+            {.run_id = 7}, [](std::size_t /*part*/) {}, [] {});
     };
     const auto vanish = [&](Session& session) { session.cancel_upload(open(session), UploadEnd::vanished); };
     const auto watched = registry.create(first_id, test::settings()).session;
@@ -291,7 +291,7 @@ TEST(OrphanedRegistry, ForgetsASessionThatIsOnlyAskedAbout) {
                              BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
     const auto session = registry.create(first_id, test::settings()).session;
     session->cancel_upload(session->open_upload(
-                               {.run_id = 7}, [] {}, [] {}),
+                               {.run_id = 7}, [](std::size_t /*part*/) {}, [] {}),
                            UploadEnd::vanished);
     while (!session->unused(Clock::now() + 2 * limit)) std::this_thread::yield();
     const auto vanished = Clock::now();
@@ -310,7 +310,7 @@ TEST(OrphanedRegistry, ForgetsASessionWhoseBrokenStreamLookedFirstAsIfItHadEnded
     };
     const auto open = [](Session& session) {
         return session.open_upload(
-            {.run_id = 7}, [] {}, [] {});
+            {.run_id = 7}, [](std::size_t /*part*/) {}, [] {});
     };
     const auto wait_for_end = [](Session& session) {
         while (!session.without_stream(Clock::now())) std::this_thread::yield();
@@ -356,7 +356,7 @@ TEST(OrphanedRegistry, ForgetsASessionWhoseSimulatorNeverCameThoughItWasToFollow
     };
     const auto stream = [](Session& session) {
         session.cancel_upload(session.open_upload(
-                                  {}, [] {}, [] {}),
+                                  {}, [](std::size_t /*part*/) {}, [] {}),
                               UploadEnd::answered);
     };
     const auto left = create(first_id, true);

@@ -153,14 +153,14 @@ TEST_F(SessionPipeline, AnswersWhatCameBeforeABadFrameAndDropsWhatCameAfter) {
 
 TEST_F(SessionPipeline, TakesOneUploadAtATime) {
     const auto upload = session.open_upload(
-        {}, [] {}, [] {});
+        {}, [](std::size_t /*part*/) {}, [] {});
     EXPECT_TRUE(session.state().uploading);
     EXPECT_THROW(session.open_upload(
-                     {}, [] {}, [] {}),
+                     {}, [](std::size_t /*part*/) {}, [] {}),
                  Refusal);
     session.end_upload(upload, nullptr);
     EXPECT_NO_THROW(session.open_upload(
-        {}, [] {}, [] {}));
+        {}, [](std::size_t /*part*/) {}, [] {}));
 }
 
 TEST_F(SessionPipeline, SendsStatisticsAloneToWhoWantsNoMeshes) {
@@ -252,7 +252,7 @@ TEST_F(SessionPipeline, EndsUploadAndWatchersWhenClosed) {
     EXPECT_TRUE(watcher.receive().empty());
     EXPECT_EQ(watcher.error, nullptr);
     EXPECT_THROW(session.open_upload(
-                     {}, [] {}, [] {}),
+                     {}, [](std::size_t /*part*/) {}, [] {}),
                  Refusal);
     EXPECT_THROW(session.open_watch(normals(8), [] {}), Refusal);
 }

@@ -29,7 +29,7 @@ struct Simulator {
     Simulator(Session& s, const UploadOptions& options)
         : session(s),
           upload(session.open_upload(
-              options, [awake = awake] { awake->release(); }, [this] { ++drained; })) {}
+              options, [awake = awake](std::size_t /*part*/) { awake->release(); }, [this] { ++drained; })) {}
 
     void send(std::uint64_t index, const Particles& particles) {
         std::promise<InputFrame*> lent;

@@ -44,11 +44,11 @@ TEST_F(Policies, EveryFrameHasNoThirdInputSlotOnceThoseOfALatestStreamHaveComeBa
         return lent.size();
     };
     const auto latest = session.open_upload(
-        {.policy = UploadPolicy::latest}, [] {}, [] {});
+        {.policy = UploadPolicy::latest}, [](std::size_t /*part*/) {}, [] {});
     EXPECT_EQ(lend_all(), 3U);
     session.end_upload(latest, nullptr);
     const auto every_frame = session.open_upload(
-        {}, [] {}, [] {});
+        {}, [](std::size_t /*part*/) {}, [] {});
     const std::vector<InputFrame*> borrowed = std::exchange(lent, {});
     for (InputFrame* input : borrowed) session.return_input(*input);  // the request left over takes the first
     EXPECT_EQ(lent.size(), 1U);

@@ -224,7 +224,10 @@ MENISCUS_API meniscus_result meniscus_client_delete_session(meniscus_client* cli
  * none are sent, and normal-bits does not count), attribute-bits (1 to 16, default 8: each float32 of the attributes
  * comes back rounded to one of 2^bits values; 0: exactly), codec (of the meshes: packed, the default from a server on
  * this machine, entropy, the default from others, or draco), waiting-limit (received frames that wait at most; 0, the
- * default: no limit), policy (every-frame, latest or every-nth), nth, reconnect (seconds, 0: not at all). */
+ * default: no limit), policy (every-frame, latest or every-nth), nth, parts (sessions with this id, of this and of
+ * other processes, that each push a part of every frame, with the same indices and times; whatever ends the stream of
+ * one ends all), part (the number of this one, counted from 0; meshes come to part 0 alone), run (with parts: a number
+ * from 1 on that all of them share, and no other run), reconnect (seconds, 0: not at all). */
 MENISCUS_API meniscus_result meniscus_session_open(meniscus_client* client, const meniscus_options* options,
                                                    meniscus_session** session);
 /* Cancels what is in flight, and ends the session if this handle has made it, unless meniscus_session_leave() was

@@ -33,6 +33,8 @@ const char* reason_of(client::DropReason reason) {
             return "replaced";
         case client::DropReason::not_nth:
             return "not_nth";
+        case client::DropReason::incomplete:
+            return "incomplete";
     }
     return "";
 }

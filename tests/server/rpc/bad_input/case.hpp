@@ -38,6 +38,7 @@ std::vector<BadInputCase> frame_cases();
 std::vector<BadInputCase> array_cases();
 std::vector<BadInputCase> position_cases();
 std::vector<BadInputCase> open_cases();
+std::vector<BadInputCase> part_cases();
 std::vector<BadInputCase> watch_cases();
 std::vector<BadInputCase> session_cases();
 std::vector<BadInputCase> recording_cases();

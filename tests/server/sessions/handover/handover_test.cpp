@@ -115,7 +115,7 @@ TEST(SlotPool, NeverLendsASlotTwice) {
 }
 
 TEST(OutputQueue, GivesEveryMessageInOrderThenTheEnd) {
-    OutputQueue queue([] {});
+    OutputQueue queue([](std::size_t /*reader*/) {});
     queue.push(message("a"));
     queue.push(message("b"));
     queue.finish(nullptr);
@@ -127,7 +127,7 @@ TEST(OutputQueue, GivesEveryMessageInOrderThenTheEnd) {
 
 TEST(OutputQueue, WakesAWaitingConsumerOnce) {
     int woken = 0;
-    OutputQueue queue([&] { ++woken; });
+    OutputQueue queue([&](std::size_t /*reader*/) { ++woken; });
     queue.push(message("a"));
     EXPECT_EQ(woken, 0);
     queue.take();
@@ -138,7 +138,7 @@ TEST(OutputQueue, WakesAWaitingConsumerOnce) {
 }
 
 TEST(OutputQueue, HoldsTheNextFrameBackUntilTheConsumerTookEnough) {
-    OutputQueue queue([] {});
+    OutputQueue queue([](std::size_t /*reader*/) {});
     for (std::size_t i = 0; i < OutputQueue::room_for_a_frame + 1; ++i) queue.push(message("m"));
     auto room = std::async(std::launch::async, [&] { return queue.wait_for_room(); });
     queue.take();
@@ -146,7 +146,7 @@ TEST(OutputQueue, HoldsTheNextFrameBackUntilTheConsumerTookEnough) {
 }
 
 TEST(OutputQueue, ReleasesAWaitingProducerWhenTheConsumerIsGone) {
-    OutputQueue queue([] {});
+    OutputQueue queue([](std::size_t /*reader*/) {});
     for (std::size_t i = 0; i < OutputQueue::room_for_a_frame + 1; ++i) queue.push(message("m"));
     auto room = std::async(std::launch::async, [&] { return queue.wait_for_room(); });
     queue.close();
@@ -154,7 +154,7 @@ TEST(OutputQueue, ReleasesAWaitingProducerWhenTheConsumerIsGone) {
 }
 
 TEST(OutputQueue, DropsWhatWaitsWhenAborted) {
-    OutputQueue queue([] {});
+    OutputQueue queue([](std::size_t /*reader*/) {});
     for (std::size_t i = 0; i < OutputQueue::room_for_a_frame + 1; ++i) queue.push(message("m"));
     auto room = std::async(std::launch::async, [&] { return queue.wait_for_room(); });
     queue.abort(std::make_exception_ptr(std::runtime_error("gone")));

@@ -18,8 +18,9 @@
 namespace meniscus::client {
 
 enum class DropReason {
-    replaced,  ///< UploadPolicy::latest
-    not_nth,   ///< UploadPolicy::every_nth
+    replaced,    ///< UploadPolicy::latest
+    not_nth,     ///< UploadPolicy::every_nth
+    incomplete,  ///< of StreamOptions::parts: another part has left it out, or had its answer before a break
 };
 
 /// A frame that the server left out, as the policy says.

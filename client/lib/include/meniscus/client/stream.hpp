@@ -58,6 +58,14 @@ struct StreamOptions {
     std::size_t waiting_limit = 0;
     UploadPolicy policy = UploadPolicy::every_frame;
     std::uint32_t nth = 1;  ///< of UploadPolicy::every_nth, at least 1
+    /// Streams, of this and of other processes, that each send a part of every frame. All push the same indices and
+    /// times, with the particles that each of them has, and say the same run, policy, nth and reconnect. Every stream
+    /// gets the answers; meshes come to part 0 alone. Whatever ends one of the streams ends all of them.
+    std::uint32_t parts = 1;
+    std::uint32_t part = 0;  ///< the number of this one, counted from 0
+    /// Names the frames that belong together, here and after a connection broke. 0: drawn at random, for a stream that
+    /// sends whole frames. Parts need a number that is theirs alone: let part 0 draw one, and tell it to the others.
+    std::uint64_t run = 0;
     /// For how long the server may be out of reach. A connection that breaks, or a server that goes down, is then tried
     /// again; the session is created again if the server has lost it, and frames without an answer are sent again:
     /// next() returns every frame once, in order. For this their particles are kept here, no more frames than the
@@ -92,6 +100,10 @@ struct StreamOptions {
         visit("policy", &S::policy,
               {.help = "what the server does with frames that come faster than they are reconstructed"});
         visit("nth", &S::nth, {.help = "one of this many frames is reconstructed", .when = "--policy every-nth"});
+        visit("parts", &S::parts,
+              {.help = "streams that each send a part of every frame", .range = {.least = 1.0}, .when = "--run"});
+        visit("part", &S::part, {.help = "number of this one, counted from 0", .when = "--parts"});
+        visit("run", &S::run, {.help = "a number that the streams of all parts share, and no others; 0: at random"});
         visit("reconnect", &S::reconnect,
               {.help = "time for which a server that is out of reach is tried again; 0: no retries", .unit = "s"});
         visit("route_check", &S::route_check,

@@ -1,0 +1,273 @@
+// Frames that several streams send in parts: what comes of them does not depend on how they are dealt out.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <span>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "meniscus/canonical_order.hpp"
+#include "meniscus/error.hpp"
+#include "running_server.hpp"
+#include "tcp_proxy.hpp"
+#include "tcp_server.hpp"
+
+namespace meniscus::server::test {
+namespace {
+
+/// Particles with levels and arrays, of which any can be taken out.
+struct Dealt {
+    Particles particles;
+    std::vector<float> velocity;
+    std::vector<std::uint8_t> color;
+    std::vector<std::uint32_t> id;
+
+    std::size_t count() const { return id.size(); }
+    ParticleFrame view(std::vector<ParticleArray>& arrays) const {
+        arrays = {{"velocity", std::as_bytes(std::span(velocity)), ElementType::float32, 3},
+                  {"color", std::as_bytes(std::span(color)), ElementType::uint8, 3},
+                  {"id", std::as_bytes(std::span(id)), ElementType::uint32, 1}};
+        ParticleFrame frame = particles.view();
+        frame.arrays = arrays;
+        return frame;
+    }
+    Dealt only(const std::vector<std::size_t>& chosen) const {
+        Dealt part;
+        part.particles.box = particles.box;
+        for (const std::size_t i : chosen) {
+            for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) {
+                if (!particles.positions.empty()) part.particles.positions.push_back(particles.positions[k]);
+                if (!particles.quantized.empty()) part.particles.quantized.push_back(particles.quantized[k]);
+                part.velocity.push_back(velocity[k]);
+                part.color.push_back(color[k]);
+            }
+            if (!particles.levels.empty()) part.particles.levels.push_back(particles.levels[i]);
+            part.id.push_back(id[i]);
+        }
+        return part;
+    }
+};
+
+Dealt with_arrays(Particles particles, std::uint32_t seed, bool levels) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> speed(-1.0F, 1.0F);
+    Dealt made;
+    made.particles = std::move(particles);
+    const std::size_t count = std::max(made.particles.positions.size(), made.particles.quantized.size()) / 3;
+    for (std::size_t i = 0; i < 3 * count; ++i) {
+        made.velocity.push_back(speed(random));
+        made.color.push_back(static_cast<std::uint8_t>(random()));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        made.id.push_back(static_cast<std::uint32_t>(random() % 50));  // some have all values in common
+        if (levels) made.particles.levels.push_back(static_cast<std::uint8_t>(random() % 4 == 0 ? random() % 3 : 0));
+    }
+    return made;
+}
+
+/// Uniformly random places, some of them twice.
+Particles noise(std::size_t count, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> place(0.0F, static_cast<float>(radius) * 24.0F);
+    Particles particles;
+    for (std::size_t i = 0; i < 3 * count; ++i) particles.positions.push_back(place(random));
+    const std::vector<float> again(particles.positions.begin(), particles.positions.begin() + 90);
+    particles.positions.insert(particles.positions.end(), again.begin(), again.end());
+    return particles;
+}
+
+std::vector<Dealt> all_frames() {
+    std::vector<Dealt> frames;
+    frames.push_back(with_arrays(wave(7, 0.3), 1, false));
+    frames.push_back(with_arrays(noise(900, 5), 2, true));
+    frames.push_back(with_arrays(quantized(wave(7, 1.7)), 3, false));
+    frames.push_back(with_arrays(spray(4), 4, false));
+    frames.push_back(with_arrays(noise(400, 6), 5, false));
+    frames.push_back({});
+    frames.push_back(with_arrays(wave(6, 2.0), 6, true));
+    return frames;
+}
+
+Settings all_settings() {
+    Settings with = settings();
+    with.attributes = {"velocity", "color", "id"};
+    with.spray = Spray::points;
+    return with;
+}
+
+/// Which part each particle comes in.
+using Deal = std::function<std::size_t(std::size_t particle, std::size_t frame, std::size_t parts)>;
+
+std::vector<std::pair<std::string, Deal>> deals() {
+    return {
+        {"at random, another way in each frame",
+         [](std::size_t i, std::size_t frame, std::size_t parts) {
+             std::mt19937 random(static_cast<std::uint32_t>(7919 * i + 31 * frame + parts));
+             return random() % parts;
+         }},
+        {"all in one part, another one in each frame",
+         [](std::size_t /*i*/, std::size_t frame, std::size_t parts) { return (frame + parts - 1) % parts; }},
+        {"none in most parts",
+         [](std::size_t i, std::size_t /*frame*/, std::size_t parts) { return i % 2 == 0 ? 0 : parts - 1; }},
+        {"backwards", [](std::size_t i, std::size_t /*frame*/, std::size_t parts) { return (parts - 1) - i % parts; }}};
+}
+
+/// Mesh, attributes and spray, to the bit.
+std::string fingerprint(const client::ReceivedFrame& frame) {
+    const Mesh mesh = in_canonical_order(frame.mesh());
+    std::string text = mesh_sha256(mesh);
+    for (const MeshAttribute& attribute : mesh.attributes) {
+        text += " " + attribute.name + " ";
+        text.append(reinterpret_cast<const char*>(attribute.data.data()), attribute.data.size());
+    }
+    text += " spray ";
+    for (const Point& point : mesh.spray) text.append(reinterpret_cast<const char*>(&point), sizeof point);
+    return text;
+}
+
+client::StreamOptions options_of(std::uint32_t part, std::uint32_t parts) {
+    return {.spray = true,
+            .attributes = {{.name = {}, .bits = 0}},
+            .parts = parts,
+            .part = part,
+            .run = parts > 1 ? 0xfeedU : 0U};
+}
+
+/// What part 0 receives; the others are answered without meshes.
+std::vector<std::string> exchange(RunningServer& running, const std::vector<Dealt>& frames, std::uint32_t parts,
+                                  const Deal& deal) {
+    const std::string id = client::new_session_id();
+    running.client.create_session(id, all_settings());
+    std::vector<std::string> received;
+    std::vector<std::thread> uploaders;
+    for (std::uint32_t p = 0; p < parts; ++p)
+        uploaders.emplace_back([&, p] {
+            auto stream = running.client.stream(id, options_of(p, parts));
+            std::thread pusher([&] {
+                for (std::size_t f = 0; f < frames.size(); ++f) {
+                    std::vector<std::size_t> mine;
+                    for (std::size_t i = 0; i < frames[f].count(); ++i)
+                        if (deal(i, f, parts) == p) mine.push_back(i);
+                    const Dealt part = frames[f].only(mine);
+                    std::vector<ParticleArray> arrays;
+                    stream.push(part.view(arrays), f, 0.1 * static_cast<double>(f));
+                }
+                stream.finish();
+            });
+            std::size_t answers = 0;
+            while (const auto frame = stream.next()) {
+                EXPECT_EQ(frame->index, answers++);
+                if (p == 0) received.push_back(fingerprint(*frame));
+            }
+            EXPECT_EQ(answers, frames.size()) << "part " << p;
+            pusher.join();
+        });
+    for (std::thread& uploader : uploaders) uploader.join();
+    running.client.delete_session(id);
+    return received;
+}
+
+TEST(PartsOfFrames, ChangeNoBitOfMeshesAttributesAndSprayHoweverTheyAreDealtOut) {
+    RunningServer running;
+    const std::vector<Dealt> frames = all_frames();
+    const auto whole = exchange(running, frames, 1, [](auto...) { return std::size_t{0}; });
+    ASSERT_EQ(whole.size(), frames.size());
+    for (const std::uint32_t parts : {2U, 3U, 8U, 64U})
+        for (const auto& [name, deal] : deals())
+            EXPECT_EQ(exchange(running, frames, parts, deal), whole) << parts << " parts, " << name;
+}
+
+TEST(PartsOfFrames, AreOneFrameToWatchersAndInTheFiguresOfTheSession) {
+    RunningServer running;
+    const std::string id = running.session();
+    auto watcher = running.client.watch(id);
+    const Particles particles = wave(7, 0.3);
+    std::vector<std::thread> uploaders;
+    for (std::uint32_t p = 0; p < 3; ++p)
+        uploaders.emplace_back([&, p] {
+            auto stream = running.client.stream(id, {.receive_meshes = false, .parts = 3, .part = p, .run = 9});
+            Particles part;
+            for (std::size_t i = p; i < particles.positions.size() / 3; i += 3)
+                part.positions.insert(part.positions.end(),
+                                      particles.positions.begin() + static_cast<std::ptrdiff_t>(3 * i),
+                                      particles.positions.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
+            stream.push(part.view(), 4, 0.0);
+            stream.finish();
+            EXPECT_EQ(stream.next()->statistics.particles, particles.positions.size() / 3);
+            EXPECT_FALSE(stream.next());
+        });
+    const auto frame = watcher.next();
+    for (std::thread& uploader : uploaders) uploader.join();
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(mesh_sha256(frame->mesh()), local_sha256(particles));
+    EXPECT_EQ(running.client.session(id).frames, 1U);
+}
+
+/// Particles whose number says of which frame and part they are.
+Particles marked(std::uint64_t frame, std::uint32_t part) {
+    return wave(3 + (frame + part) % 3, static_cast<double>(10 * frame + part));
+}
+
+Particles joined(std::uint64_t frame, std::uint32_t parts) {
+    Particles all;
+    for (std::uint32_t p = 0; p < parts; ++p) {
+        const Particles part = marked(frame, p);
+        all.positions.insert(all.positions.end(), part.positions.begin(), part.positions.end());
+    }
+    return all;
+}
+
+TEST(PartsOfFrames, ComeWholeAndOnceWhereAnyOfTheirConnectionsIsCut) {
+    constexpr std::uint32_t parts = 3;
+    constexpr std::uint64_t count = 30;
+    RunningServer running(on_tcp());
+    const std::string id = running.session();
+    auto watcher = running.client.watch(id);
+    std::vector<std::uint64_t> shown;
+    std::thread watching([&] {
+        while (shown.empty() || shown.back() + 1 < count) {
+            const auto frame = watcher.next();
+            if (!frame) return;
+            shown.push_back(frame->index);
+            EXPECT_EQ(mesh_sha256(frame->mesh()), local_sha256(joined(frame->index, parts))) << frame->index;
+        }
+    });
+    std::vector<std::thread> uploaders;
+    for (std::uint32_t p = 0; p < parts; ++p)
+        uploaders.emplace_back([&, p] {
+            TcpProxy proxy(port_of(running.server.address()));
+            client::Client far(proxy.address());
+            auto stream = far.stream(
+                id,
+                {.receive_meshes = p == 0, .parts = parts, .part = p, .run = 77, .reconnect = std::chrono::minutes(1)});
+            std::thread pusher([&] {
+                for (std::uint64_t i = 0; i < count; ++i) stream.push(marked(i, p).view(), i, 0.0);
+                stream.finish();
+            });
+            std::vector<std::uint64_t> answered;
+            while (const auto frame = stream.next()) {
+                for (const client::DroppedFrame& dropped : frame->dropped) {
+                    EXPECT_EQ(dropped.reason, client::DropReason::incomplete);
+                    answered.push_back(dropped.index);
+                }
+                answered.push_back(frame->index);
+                if (frame->index % 9 == 2 * p) proxy.cut();
+            }
+            pusher.join();
+            for (std::size_t i = 1; i < answered.size(); ++i)
+                EXPECT_EQ(answered[i], answered[i - 1] + 1) << "part " << p;
+            EXPECT_GE(answered.size(), count - 1);  // a dropped frame behind the last one is not returned
+        });
+    for (std::thread& uploader : uploaders) uploader.join();
+    watching.join();
+    for (std::size_t i = 1; i < shown.size(); ++i) EXPECT_LT(shown[i - 1], shown[i]);
+}
+
+}  // namespace
+}  // namespace meniscus::server::test
