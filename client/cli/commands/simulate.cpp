@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "cli/commands/commands.hpp"
@@ -13,12 +14,14 @@
 #include "cli/options/named_option.hpp"
 #include "cli/options/number_range.hpp"
 #include "cli/options/option_group.hpp"
+#include "cli/options/part_options.hpp"
 #include "cli/options/settings_options.hpp"
 #include "cli/options/verbosity.hpp"
 #include "cli/print/listener.hpp"
 #include "cli/print/statistics_json.hpp"
 #include "cli/print/statistics_text.hpp"
 #include "cli/print/warnings.hpp"
+#include "cli/surfaces/dealt_particles.hpp"
 #include "cli/surfaces/mesh_output.hpp"
 #include "cli/surfaces/quantized_positions.hpp"
 #include "cli/surfaces/surfaces.hpp"
@@ -93,7 +96,18 @@ struct Upload {
     }
 };
 
+void require_possible_part(const SimulateOptions& options) {
+    const client::StreamOptions& stream = options.surfaces.stream;
+    if (stream.parts <= 1) return;
+    if (options.positions == PositionEncoding::uint16)
+        throw InvalidInput("--positions uint16 is over the box of one process' particles: --parts needs float32");
+    if (stream.part != 0 && !(options.out.empty() && options.stats.empty()))
+        throw InvalidInput("--out and --stats are of meshes, which come to part 0 alone: leave them out of part " +
+                           std::to_string(stream.part));
+}
+
 void simulate(const SimulateOptions& options) {
+    require_possible_part(options);
     simulator::Simulation simulation(simulator::make_scene(options.scene, options.particles));
     const Settings settings = options.settings.build(static_cast<double>(simulation.scene().particle_radius));
     require_known(settings);
@@ -131,7 +145,10 @@ void simulate(const SimulateOptions& options) {
         if (!options.particles_out.empty()) formats::write_vtk(frame_path(options.particles_out, frame, "vtk"), upload);
         std::optional<QuantizedPositions> quantized;
         if (options.positions == PositionEncoding::uint16) quantized.emplace(upload);
-        surfaces->submit(quantized ? quantized->frame() : upload, simulation.time());
+        std::optional<DealtParticles> part;
+        if (const auto& stream = options.surfaces.stream; stream.parts > 1)
+            part.emplace(upload, stream.part, stream.parts);
+        surfaces->submit(part ? part->frame() : quantized ? quantized->frame() : upload, simulation.time());
     }
     surfaces->finish();
     if (!options.stats.empty())
@@ -182,6 +199,11 @@ void add_simulate(CLI::App& app) {
                          "Encoding of the positions; uint16 is over the frame's bounding box");
     }
     options->surfaces.add_to(command);
+    {
+        const OptionGroup group(command, place_heading);
+        add_part_options(command, options->surfaces.stream, *command.get_option("--server"),
+                         *command.get_option("--session"));
+    }
     options->verbosity.add_to(command);
     add_examples(command,
                  {"meniscus simulate --particles 16000 --frames 100 --out meshes",

@@ -4,14 +4,15 @@
 
 namespace meniscus::cli {
 
-OpenedSession::OpenedSession(const ServerFlags& server, const SessionFlags& flags, const Settings& settings)
+OpenedSession::OpenedSession(const ServerFlags& server, const SessionFlags& flags, const Settings& settings,
+                             bool has_other_uploaders)
     : client_(server.connect()),
       session_(client_.open_session(settings, {.description = flags.description,
                                                .id = flags.id,
-                                               .ephemeral = flags.id.empty() && !flags.keep,
+                                               .ephemeral = (flags.id.empty() || has_other_uploaders) && !flags.keep,
                                                .stream_follows = true,
                                                .publish = flags.publish})) {
-    if (flags.keep) session_.leave();
+    if (flags.keep || has_other_uploaders) session_.leave();
     if (!session_.is_owned()) return;
     interrupts_.emplace([end = session_.ending()] {
         try {

@@ -11,12 +11,14 @@
 
 namespace meniscus::cli {
 
-/// If the command has created it, it ends with the command, also by Ctrl-C, unless it is to be kept; one without an id
-/// of the caller's choice is ephemeral, so that it ends however the process does.
+/// If the command has created it, it ends with the command, also by Ctrl-C, unless it is to be kept or other processes
+/// upload to it, too. One without an id of the caller's choice, or of several processes, is ephemeral, so that it ends
+/// however they do.
 class OpenedSession {
 public:
     /// Throws InvalidInput if the server is not there.
-    OpenedSession(const ServerFlags& server, const SessionFlags& flags, const Settings& settings);
+    OpenedSession(const ServerFlags& server, const SessionFlags& flags, const Settings& settings,
+                  bool has_other_uploaders = false);
 
     const std::string& id() const { return session_.id(); }
     client::Stream stream(const client::StreamOptions& options) { return session_.stream(options); }

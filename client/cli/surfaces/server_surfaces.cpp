@@ -13,7 +13,7 @@ constexpr std::size_t frames_under_way = 4;
 
 ServerSurfaces::ServerSurfaces(const ServerFlags& server, const SessionFlags& session, const Settings& settings,
                                client::StreamOptions options, Handler handler)
-    : session_(server, session, settings), handler_(std::move(handler)) {
+    : session_(server, session, settings, options.parts > 1), handler_(std::move(handler)) {
     options.waiting_limit = frames_under_way;
     stream_ = session_.stream(options);
     receiver_ = std::thread([this] { receive(); });

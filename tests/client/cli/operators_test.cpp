@@ -318,6 +318,48 @@ TEST_F(Operators, KeepASessionOnlyIfTheyWishTo) {
     EXPECT_EQ(client.session(kept.id).frames, 4U);
 }
 
+TEST_F(Operators, UploadPartsWhoseMeshesAreThoseOfOneProcess) {
+    const auto simulate = [&](const std::string& stats, std::vector<std::string> more) {
+        std::vector<std::string> arguments{"simulate", "--particles", "300",         "--frames",
+                                           "3",        "--adaptive",  "--attribute", "velocity"};
+        if (!stats.empty()) arguments.insert(arguments.end(), {"--stats", (directory / stats).string()});
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    };
+    const auto hashes = [&](const std::string& stats) {
+        std::vector<std::string> all;
+        const auto read = nlohmann::json::parse(formats::read_file(directory / stats));
+        for (const auto& frame : read.at("frames")) all.push_back(frame.at("mesh_sha256"));
+        return all;
+    };
+    EXPECT_EQ(simulate("whole.json", {}).exit_code, 0);
+    const std::string session = client::new_session_id();
+    std::vector<std::thread> others;
+    for (const char* part : {"1", "2"})
+        others.emplace_back([&simulate, &session, part] {
+            const ProcessResult result =
+                simulate("", {"--session", session, "--parts", "3", "--part", part, "--run", "77"});
+            EXPECT_EQ(result.exit_code, 0) << result.err;
+        });
+    const ProcessResult first = simulate("parts.json", {"--session", session, "--parts", "3", "--run", "77"});
+    for (std::thread& other : others) other.join();
+    EXPECT_EQ(first.exit_code, 0) << first.err;
+    ASSERT_EQ(hashes("whole.json").size(), 3U);
+    EXPECT_EQ(hashes("parts.json"), hashes("whole.json"));
+    for (const auto& [flags, text] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+             {{"--parts", "3"}, "--parts requires"},
+             {{"--part", "1"}, "--part requires --parts"},
+             {{"--session", session, "--parts", "3", "--part", "3", "--run", "1"}, "part is 3 of 3 parts"},
+             {{"--session", session, "--parts", "3", "--part", "1", "--run", "1", "--out", "there"},
+              "--out and --stats"},
+             {{"--session", session, "--parts", "3", "--run", "1", "--positions", "uint16"},
+              "--parts needs float32"}}) {
+        const ProcessResult refused = simulate("", flags);
+        EXPECT_EQ(refused.exit_code, 2);
+        EXPECT_NE(refused.err.find(text), std::string::npos) << refused.err;
+    }
+}
+
 TEST_F(Operators, DeleteSessionsByIdAndByNameAndAreToldOfThoseThatAreNone) {
     Settings settings;
     settings.particle_radius = 0.1;

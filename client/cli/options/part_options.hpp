@@ -1,0 +1,16 @@
+// The flags --parts, --part and --run, of what uploads a part of every frame.
+#pragma once
+
+#include "meniscus/client/client.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace meniscus::cli {
+
+/// server, session: the options that they need.
+void add_part_options(CLI::App& command, client::StreamOptions& stream, CLI::Option& server, CLI::Option& session);
+
+}  // namespace meniscus::cli
