@@ -21,6 +21,11 @@ Seeds stream_request_seeds();
 void frame_chunks(Bytes bytes);
 Seeds frame_chunk_seeds();
 
+/// Parts of one frame: whether all attributes are kept (1 byte), their number less 1 (1 byte), a list of their
+/// FrameBegin, and which part sends its next bytes (1 byte) and how many (2 bytes), again and again.
+void frame_parts(Bytes bytes);
+Seeds frame_parts_seeds();
+
 /// The request of a Watch call.
 void watch_requests(Bytes bytes);
 Seeds watch_request_seeds();
