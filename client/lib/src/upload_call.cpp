@@ -63,7 +63,7 @@ grpc::ByteBuffer chunk_message(const std::shared_ptr<const void>& memory, std::s
 
 UploadCall::UploadCall(std::shared_ptr<Connection> connection, const std::string& session_id,
                        const v1::StreamOpen& open)
-    : connection_(std::move(connection)) {
+    : connection_(std::move(connection)), sends_parts_(open.parts() > 1) {
     connection_->add_metadata(context_, session_id);
     call_ = start(*connection_, context_);
     v1::StreamRequest request;
@@ -91,6 +91,11 @@ bool UploadCall::send(const v1::StreamRequest& request, grpc::WriteOptions optio
 }
 
 void UploadCall::no_more_frames() {
+    if (sends_parts_) {
+        v1::StreamRequest request;
+        request.mutable_finish();
+        send(request, {});
+    }
     call_->WritesDone();
 }
 

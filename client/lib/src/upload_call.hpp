@@ -41,6 +41,7 @@ private:
     bool send(const v1::StreamRequest& request, grpc::WriteOptions options);
 
     const std::shared_ptr<Connection> connection_;
+    const bool sends_parts_;
     grpc::ClientContext context_;
     std::unique_ptr<grpc::ClientReaderWriter<grpc::ByteBuffer, v1::StreamResponse>> call_;
 };

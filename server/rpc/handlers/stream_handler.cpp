@@ -123,12 +123,16 @@ public:
 
     void begun(std::optional<std::vector<FramePiece>> pieces) override {
         if (!begin_work()) return;
-        passes_over_ = !pieces;
-        if (passes_over_)
-            assembler_.pass_over(announced_);
-        else
-            assembler_.place(announced_, *std::move(pieces));
-        read_once_booked();
+        try {
+            passes_over_ = !pieces;
+            if (passes_over_)
+                assembler_.pass_over(announced_);
+            else
+                assembler_.place(announced_, *std::move(pieces));
+            read_once_booked();
+        } catch (...) {
+            fail(std::current_exception());
+        }
         joint_->leave();
     }
 
@@ -147,7 +151,10 @@ private:
         return !joint_ || joint_->enter();
     }
 
+    /// gRPC ends the reads of a broken connection as those of a client that has said all. A part says so itself, since
+    /// the others lose a frame that it leaves out.
     void end_of_stream() {
+        if (joint_ && joint_->has_parts()) return joint_->lose(part_);
         assembler_.end_of_stream();
         if (!joint_) throw InvalidInput("the stream ended before its first message, open");
         joint_->close(part_);
@@ -201,6 +208,10 @@ private:
             case v1::StreamRequest::kMove:
                 assembler_.end_of_stream();
                 joint_->move();
+                return false;
+            case v1::StreamRequest::kFinish:
+                assembler_.end_of_stream();
+                joint_->close(part_);
                 return false;
             case v1::StreamRequest::MESSAGE_NOT_SET:
                 break;

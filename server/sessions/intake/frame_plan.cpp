@@ -48,9 +48,16 @@ std::string words_of(const FurtherArray* array) {
     return array != nullptr ? conversion::form_of(*array) : "missing";
 }
 
+/// Equal texts for equal numbers, which -0 and 0 are.
+std::string words_of(double number) {
+    return fmt::format("{}", number + 0.0);
+}
+
 std::string words_of(const Box& box) {
-    return fmt::format("({}, {}, {}) to ({}, {}, {})", box.min[0], box.min[1], box.min[2], box.max[0], box.max[1],
-                       box.max[2]);
+    const auto corner = [](const auto& at) {
+        return fmt::format("({}, {}, {})", words_of(at[0]), words_of(at[1]), words_of(at[2]));
+    };
+    return corner(box.min) + " to " + corner(box.max);
 }
 
 /// Throws InvalidInput if the part cannot be in one frame with the lead, whose form the frame takes.
@@ -62,7 +69,7 @@ void require_same_form(std::span<const FramePart> parts, const FramePart& lead, 
                             "it is the same",
                             part.index, what, &part - parts.data(), is, of_lead, &lead - parts.data()));
     };
-    require_same("simulation_time", fmt::format("{}", part.simulation_time), fmt::format("{}", lead.simulation_time));
+    require_same("simulation_time", words_of(part.simulation_time), words_of(lead.simulation_time));
     // A part without particles has no form.
     if (part.particle_count == 0) return;
     const auto positions = [](const FramePart& of) { return of.layout.quantized ? "uint16" : "float32"; };

@@ -52,6 +52,7 @@ struct Run {
     std::uint64_t id = 0;
     std::optional<std::uint64_t> last_shown = {};     ///< index of a frame; used by the reconstructing thread alone
     std::optional<std::uint64_t> last_finished = {};  ///< index of a frame; used by the encoding thread alone
+    std::atomic<bool> has_begun{false};               ///< its first frame, over all parts
     /// Whose streams have ended well, and do not come again; with the lock of JointUploads.
     std::set<std::uint32_t> finished_parts = {};
 };

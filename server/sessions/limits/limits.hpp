@@ -16,7 +16,7 @@ namespace meniscus::server {
 /// The most bytes of one chunk of particle data, and of one part of a brick.
 inline constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 /// Streams that may each send a part of every frame.
-inline constexpr std::uint32_t parts_per_frame = 1024;
+inline constexpr std::uint32_t parts_per_frame = 256;
 /// The range of Limits::message_bytes: from a full chunk and its envelope to the most that gRPC can count.
 inline constexpr std::size_t min_message_bytes = chunk_bytes + 1024;
 inline constexpr std::size_t max_message_bytes = std::numeric_limits<int>::max();

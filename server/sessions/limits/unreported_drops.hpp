@@ -5,6 +5,7 @@
 #include <functional>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 namespace meniscus::server {
 
@@ -21,20 +22,20 @@ public:
     }
 
     void report() {
-        std::function<void()> waiting;
+        std::vector<std::function<void()>> waiting;
         {
             const std::lock_guard lock(mutex_);
-            if (--count_ < limit) waiting = std::exchange(waiting_, nullptr);
+            if (--count_ < limit) waiting = std::exchange(waiting_, {});
         }
-        if (waiting) waiting();
+        for (const auto& call : waiting) call();
     }
 
-    /// Calls the function once fewer than `limit` are unreported: at once, or from report(). One may wait at a time.
+    /// Calls the function once fewer than `limit` are unreported: at once, or from report().
     void when_below_limit(std::function<void()> call) {
         {
             const std::lock_guard lock(mutex_);
             if (count_ >= limit) {
-                waiting_ = std::move(call);
+                waiting_.push_back(std::move(call));
                 return;
             }
         }
@@ -44,7 +45,7 @@ public:
 private:
     std::mutex mutex_;
     std::size_t count_ = 0;
-    std::function<void()> waiting_;
+    std::vector<std::function<void()>> waiting_;
 };
 
 }  // namespace meniscus::server

@@ -93,7 +93,7 @@ bool JointUpload::take_part(const UploadOptions& options, std::uint32_t part, co
         if (ended_ || upload_->output.finished()) return false;
         require_equal(options, options_, part);
         comes_again = parts_[part].is_present;
-        if (comes_again && !began_)
+        if (comes_again && !upload_->run->has_begun)
             throw Refusal(Refusal::Kind::failed_precondition,
                           fmt::format("{} uploads to session {} already; each part is sent by one stream",
                                       name_of_part(part, parts_.size()), session_->id()));
@@ -229,7 +229,7 @@ void JointUpload::begin_frame_of_all() {
     std::vector<std::shared_ptr<PartStream>> all;
     {
         const std::lock_guard lock(mutex_);
-        in_frame_ = began_ = true;
+        in_frame_ = true;
         arrived_ = 0;
         kept_bytes_ = 0;
         for (const auto& of_part : pieces)
@@ -237,6 +237,7 @@ void JointUpload::begin_frame_of_all() {
                 if (piece.kept) kept_bytes_ += piece.end - piece.begin;
         all = streams();
     }
+    upload_->run->has_begun = true;
     upload_->pace.begin(announced.front().index, arriving);
     for (std::size_t i = 0; i < all.size(); ++i)
         if (all[i]) all[i]->begun(pieces[i]);
@@ -264,7 +265,10 @@ void JointUpload::end(std::uint32_t part) {
     }
     if (reads_on == nullptr) return submit();
     session_->report_incomplete(upload_, part, index);
-    reads_on->read_next();
+    // What the upload keeps must not keep the stream, which has the upload.
+    upload_->unreported_drops.when_below_limit([weak = std::weak_ptr(reads_on)] {
+        if (const auto stream = weak.lock()) stream->read_next();
+    });
 }
 
 void JointUpload::submit() {
@@ -299,6 +303,10 @@ void JointUpload::close(std::uint32_t part) {
         end_with(nullptr);
     else
         resolve();
+}
+
+void JointUpload::lose(std::uint32_t part) {
+    break_off(fmt::format("{} has broken off", name_of_part(part, parts_.size())));
 }
 
 void JointUpload::move() {

@@ -56,6 +56,7 @@ public:
     JointUpload(std::shared_ptr<Session> session, std::uint32_t parts) : session_(std::move(session)), parts_(parts) {}
 
     const std::shared_ptr<Upload>& upload() const noexcept { return upload_; }
+    bool has_parts() const noexcept { return parts_.size() > 1; }
 
     // The reading side of a part; between enter() and leave() the buffer is there, from read_next() on.
 
@@ -73,6 +74,8 @@ public:
     void end(std::uint32_t part);
     /// No further frame of this part follows.
     void close(std::uint32_t part);
+    /// The connection of this part is broken.
+    void lose(std::uint32_t part);
     /// Between two frames: the simulator goes on with another server.
     void move();
     /// Frames that are complete are still answered; then all streams end with the error, which names the part.
@@ -133,7 +136,6 @@ private:
     bool input_requested_ = false;
     int working_ = 0;        ///< parts between enter() and leave()
     bool in_frame_ = false;  ///< begun by all
-    bool began_ = false;     ///< a frame, ever
     bool closed_ = false;    ///< by all parts
     bool ended_ = false;
     std::exception_ptr ends_with_;  ///< after the frame

@@ -110,7 +110,9 @@ std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::
 
 std::shared_ptr<Run> Session::run_of(const UploadOptions& options) const {
     if (run_ && options.run_id != 0 && run_->id == options.run_id) return run_;
-    return std::make_shared<Run>(Run{.id = options.run_id});
+    auto run = std::make_shared<Run>();
+    run->id = options.run_id;
+    return run;
 }
 
 void Session::set_upload(std::shared_ptr<Upload> upload) {
@@ -157,6 +159,7 @@ void Session::report_incomplete(std::shared_ptr<Upload> upload, std::uint32_t pa
     if (upload_ != upload) return;
     ++upload->owed;
     upload->unreported_drops.add();
+    context_.shared.metrics->frame_dropped(DropReason::incomplete);
     received_.put({.upload = std::move(upload),
                    .dropped = DroppedFrame{.index = index, .reason = DropReason::incomplete, .part = part}});
 }

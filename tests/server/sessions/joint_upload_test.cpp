@@ -157,6 +157,21 @@ TEST_F(Parts, AreSentByOneStreamEach) {
     EXPECT_NO_THROW(opened(1, {})) << "the run is resumed";
 }
 
+TEST_F(Parts, ComeAgainOverAnotherStreamAlsoBeforeTheFirstFrameOfAResumedRun) {
+    const std::vector players{opened(0, {1}), opened(1, {1}), opened(2, {1})};
+    std::vector<std::thread> threads;
+    for (const auto& each : players) {
+        each->stays = true;
+        threads.emplace_back([each] {
+            each->play(0);
+            each->done(UploadEnd::vanished);
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    const auto half_open = opened(1, {2});
+    EXPECT_NO_THROW(opened(1, {2}));
+}
+
 TEST_F(Parts, OfAnotherRunAreRefused) {
     const auto first = opened(1, {});
     UploadOptions other = in_parts(3);
