@@ -22,6 +22,8 @@ bool Stream::Impl::wait_for_use(const grpc::Status& status) {
     if (!resumes()) require_ok(status, connection_->address);
     std::unique_lock lock(mutex_);
     call_.reset();
+    // Other parts of the frames are ended where one stays away.
+    if (options_.parts > 1) return !left_;
     changed_.wait(lock, [&] { return left_ || finished_ || !unanswered_.empty(); });
     return !left_ && !unanswered_.empty();
 }

@@ -79,6 +79,7 @@ struct Upload {
 
     UploadPace pace;
     std::atomic<std::uint32_t> missing_parts{0};  ///< that have not come yet
+    std::atomic<bool> waits_for_parts{false};     ///< some wait for others, which compute: it is not idle
     std::uint64_t submitted = 0;                  ///< frames, dropped ones included; with the session's lock held
     UnreportedDrops unreported_drops;
     std::atomic<std::uint64_t> owed{0};  ///< frames submitted and not yet answered

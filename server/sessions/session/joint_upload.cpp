@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 #include <utility>
 
 #include "meniscus/error.hpp"
@@ -59,18 +60,21 @@ std::shared_ptr<JointUpload> JointUpload::open(const std::shared_ptr<Session>& s
     if (const auto newest = all.newest.lock(); options.parts > 1 && newest && newest->options_.run_id == options.run_id)
         if (newest->take_part(options, part, stream)) return newest;
     auto made = std::make_shared<JointUpload>(session, options.parts);
-    made->open_upload(options);
+    made->make_upload(options);
+    // Before the session, which may end it at once, has it.
     made->take_part(options, part, stream);
+    session->open_upload(made->upload_);
+    for (const std::uint32_t finished : made->upload_->run->finished_parts) made->go_on_without(finished);
     all.newest = made;
     return made;
 }
 
-void JointUpload::open_upload(const UploadOptions& options) {
+void JointUpload::make_upload(const UploadOptions& options) {
     const auto weak = weak_from_this();
     options_ = options;
     UploadOptions of_all = options;
     of_all.receive_meshes = false;
-    upload_ = session_->open_upload(
+    upload_ = std::make_shared<Upload>(
         of_all,
         [weak](std::size_t part) {
             if (const auto self = weak.lock())
@@ -83,7 +87,6 @@ void JointUpload::open_upload(const UploadOptions& options) {
             if (const auto self = weak.lock()) self->end_with(error);
         });
     upload_->missing_parts = options.parts;
-    for (const std::uint32_t part : upload_->run->finished_parts) go_on_without(part);
 }
 
 bool JointUpload::take_part(const UploadOptions& options, std::uint32_t part, const std::weak_ptr<PartStream>& stream) {
@@ -197,7 +200,9 @@ void JointUpload::resolve() {
     std::vector<std::shared_ptr<PartStream>> behind;
     {
         const std::lock_guard lock(mutex_);
-        if (ended_ || !has(State::begun) || !all_that_send_are(State::begun)) return;
+        const bool all_have_begun = all_that_send_are(State::begun);
+        upload_->waits_for_parts = (has(State::begun) || has(State::closed)) && !all_have_begun;
+        if (ended_ || !has(State::begun) || !all_have_begun) return;
         for (const Part& part : parts_)
             if (part.state == State::begun) newest = std::max(newest, part.announced.index);
         // A part that sends no more has gone past all frames. From here on no other thread finds all parts decided.
@@ -211,8 +216,10 @@ void JointUpload::resolve() {
             for (Part& part : parts_) part.state = State::sending;
     }
     try {
-        session_->admit_frame(newest);
-        if (behind.empty()) return begin_frame_of_all();
+        if (behind.empty()) {
+            session_->admit_frame(newest);
+            return begin_frame_of_all();
+        }
         for (const auto& stream : behind)
             if (stream) stream->begun(std::nullopt);
     } catch (...) {
@@ -369,7 +376,10 @@ void JointUpload::done(std::uint32_t part, UploadEnd end) {
     if (has_finished && parts_.size() > 1) {
         JointUploads& joints = session_->joint_uploads();
         const std::lock_guard lock(joints.mutex);
-        upload_->run->finished_parts.insert(part);
+        std::set<std::uint32_t>& finished = upload_->run->finished_parts;
+        finished.insert(part);
+        // None misses an answer: whatever comes is another stream of all parts.
+        if (finished.size() == parts_.size()) finished.clear();
         // The others may have resumed the run already, for the answers that they miss.
         if (const auto newest = joints.newest.lock(); newest && newest->upload_->run == upload_->run)
             newest->go_on_without(part);

@@ -95,7 +95,7 @@ private:
         FramePart announced;
     };
 
-    void open_upload(const UploadOptions& options);
+    void make_upload(const UploadOptions& options);
     /// False if it has ended. Throws as open().
     bool take_part(const UploadOptions& options, std::uint32_t part, const std::weak_ptr<PartStream>& stream);
     /// If all parts are ready.

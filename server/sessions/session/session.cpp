@@ -75,17 +75,14 @@ std::string Session::instance() const {
     return fmt::format("{:x}.{}", created.count(), runs_);
 }
 
-std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::function<void(std::size_t)> wake,
-                                             std::function<void()> drain,
-                                             std::function<void(std::exception_ptr)> stop) {
-    auto upload = std::make_shared<Upload>(options, std::move(wake), std::move(drain), std::move(stop));
+void Session::open_upload(const std::shared_ptr<Upload>& upload) {
     std::shared_ptr<Upload> before;
     std::vector<InputFrame*> withdrawn;
     {
         const std::lock_guard lock(mutex_);
         if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id()));
         if (draining_) throw shutting_down();
-        upload->run = run_of(options);
+        upload->run = run_of(upload->options);
         if (upload_ && upload->run != run_)
             throw Refusal(Refusal::Kind::failed_precondition,
                           fmt::format("another stream uploads to session {}", id()));
@@ -105,7 +102,6 @@ std::shared_ptr<Upload> Session::open_upload(const UploadOptions& options, std::
             Refusal(Refusal::Kind::failed_precondition,
                     fmt::format("another stream has resumed run {:016x} of session {}", before->run->id, id()))));
     inputs_.lend_third();
-    return upload;
 }
 
 std::shared_ptr<Run> Session::run_of(const UploadOptions& options) const {
@@ -347,10 +343,12 @@ void Session::end_idle_upload(std::chrono::steady_clock::time_point now, bool me
     {
         const std::lock_guard lock(mutex_);
         if (!upload_ || upload_->owed != 0 || upload_->pace.paused()) return;
+        if (upload_->missing_parts == 0 && upload_->waits_for_parts) return;
         const auto orphan_time = upload_->missing_parts != 0 ? limits().orphan_time : std::chrono::milliseconds(0);
         const auto time = orphan_time.count() != 0 ? orphan_time : limits().idle_time;
         if (time.count() == 0 || now - upload_->last_activity.load() < time) return;
         idle = upload_;
+        if (idle->missing_parts != 0) orphaned_ = true;
         set_upload(nullptr);
     }
     if (idle->missing_parts != 0)

@@ -80,11 +80,9 @@ public:
 
     // Uploading. Frames go: request_input, submit or return_input, ..., end_upload.
 
-    /// A stream that resumes the session's run takes the place of the one before, which ends. Throws Refusal if a
-    /// stream of another run uploads, or the session ends.
-    std::shared_ptr<Upload> open_upload(
-        const UploadOptions& options, std::function<void(std::size_t part)> wake, std::function<void()> drain,
-        std::function<void(std::exception_ptr)> stop = [](const std::exception_ptr&) {});
+    /// Takes an upload that nobody else has seen, and gives it its run. One that resumes the session's run takes the
+    /// place of the one before, which ends. Throws Refusal if a stream of another run uploads, or the session ends.
+    void open_upload(const std::shared_ptr<Upload>& upload);
     void request_input(SlotPool<InputFrame>::Waiter waiter) { inputs_.request(std::move(waiter)); }
     void return_input(InputFrame& input) { inputs_.give_back(input); }
     /// Call it before a frame is begun. Throws LimitExceeded for one too many in a second.

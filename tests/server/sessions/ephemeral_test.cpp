@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 
+#include "opened_upload.hpp"
 #include "sessions/limits/refusal.hpp"
 #include "sessions/session/session_registry.hpp"
 #include "simulator_player.hpp"
@@ -30,8 +31,7 @@ struct EphemeralSession : testing::Test {
         return registry.create(test::id, test::settings(), {}, {.ephemeral = true}).session;
     }
     static std::shared_ptr<Upload> open(Session& session, milliseconds reconnect = {}) {
-        return session.open_upload(
-            {.run_id = 7, .reconnect = reconnect}, [](std::size_t /*part*/) {}, [] {});
+        return test::open_upload(session, {.run_id = 7, .reconnect = reconnect});
     }
     static void wait_for_end(Session& session) {
         while (!session.without_stream(Clock::now())) std::this_thread::yield();
@@ -185,8 +185,7 @@ TEST_F(FullRegistry, NamesIdleSessionsThatTheCallerMayDeleteAndCountsTheOthers) 
     description.set_name("dam \"break\"");
     registry.create(id_of(1), test::settings(), creator("ada"), {.description = description});
     const auto busy = registry.create(id_of(2), test::settings(), creator("ada")).session;
-    const auto upload = busy->open_upload(
-        {}, [](std::size_t /*part*/) {}, [] {});
+    const auto upload = test::open_upload(*busy);
     for (int i = 3; i <= 8; ++i) registry.create(id_of(i), test::settings(), creator("ben"));
     const std::string text = refusal(creator("ada"));
     EXPECT_NE(text.find("8 sessions are open; the server holds at most 8; you may delete, of those without a stream, "

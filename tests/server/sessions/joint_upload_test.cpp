@@ -172,6 +172,14 @@ TEST_F(Parts, ComeAgainOverAnotherStreamAlsoBeforeTheFirstFrameOfAResumedRun) {
     EXPECT_NO_THROW(opened(1, {2}));
 }
 
+TEST_F(Parts, GoOnInTheSameRunAfterAllHaveEndedWell) {
+    play({opened(0, {1}), opened(1, {1}), opened(2, {1})});
+    const auto first = opened(0, {2, 3});
+    EXPECT_EQ(first->upload().missing_parts, 2U) << "their frames are waited for";
+    play({first, opened(1, {2, 3}), opened(2, {2, 3})});
+    EXPECT_EQ(first->answers, (Answers{"2", "3"}));
+}
+
 TEST_F(Parts, OfAnotherRunAreRefused) {
     const auto first = opened(1, {});
     UploadOptions other = in_parts(3);
@@ -247,6 +255,42 @@ TEST_F(Parts, ThatDoNotComeEndTheOthersInTheTimeOfOrphans) {
     EXPECT_FALSE(waiting.session->state().uploading);
     lonely->play(0);
     EXPECT_EQ(text_of(lonely->error).substr(0, 53), "2 of the 3 parts of the frames have not come for 101 ");
+    lonely->done(UploadEnd::answered);
+    EXPECT_TRUE(waiting.session->unused(std::chrono::steady_clock::now() + std::chrono::seconds(101)))
+        << "its simulator has vanished, if for a part";
+}
+
+TEST_F(Parts, ThatComputeAreNotIdleWhileOthersWaitForThem) {
+    const std::vector players{opened(0, {1}), opened(1, {1})};
+    std::vector<std::thread> waiting;
+    for (const auto& each : players) waiting.emplace_back([each] { each->play(0); });
+    const auto computes = opened(2, {1});
+    while (!players[0]->upload().waits_for_parts) std::this_thread::yield();
+    checked.session->end_idle_upload(std::chrono::steady_clock::now() + 2 * checked.limits.idle_time, false);
+    play({computes});
+    for (std::thread& thread : waiting) thread.join();
+    for (const auto& each : players) EXPECT_EQ(each->answers, (Answers{"1"}));
+}
+
+/// Lets the server begin to stop when another stream has taken its place.
+struct DrainingStream final : PartStream {
+    explicit DrainingStream(Session& of) : session(of) {}
+    void wake() override { session.drain(std::chrono::seconds(1)); }
+    void read_next() override {}
+    void begun(std::optional<std::vector<FramePiece>> /*pieces*/) override {}
+    void stop_reading() override {}
+
+    Session& session;
+};
+
+TEST_F(Parts, EndWhereTheServerStopsWhileTheyAreOpened) {
+    const auto before = std::make_shared<DrainingStream>(*checked.session);
+    const auto joint = JointUpload::open(checked.session, in_parts(1), 0, before);
+    const auto after = opened(0, {1}, in_parts(1));
+    EXPECT_TRUE(after->play(0) == PartPlayer::Outcome::ended);
+    EXPECT_EQ(text_of(after->error), "the server is shutting down");
+    joint->done(0, UploadEnd::vanished);
+    after->done(UploadEnd::answered);
 }
 
 TEST_F(Parts, CountOnceToTheFramesOfASecond) {

@@ -88,6 +88,7 @@ public:
         }
         return Outcome::ended;
     }
+    const Upload& upload() const { return *joint_->upload(); }
     /// The connection is over, and the server knows.
     void done(UploadEnd end) {
         joint_->finished();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "meniscus/error.hpp"
+#include "opened_upload.hpp"
 #include "sessions/limits/refusal.hpp"
 #include "simulator_player.hpp"
 
@@ -95,9 +96,7 @@ TEST_F(Registry, TakesNoSessionsWhileItDrains) {
     const auto session = registry.create(first_id, test::settings()).session;
     registry.drain(std::chrono::seconds(1));
     EXPECT_THROW(registry.create(second_id, test::settings()), Refusal);
-    EXPECT_THROW(session->open_upload(
-                     {}, [](std::size_t /*part*/) {}, [] {}),
-                 Refusal);
+    EXPECT_THROW(test::open_upload(*session), Refusal);
 }
 
 TEST(IdleRegistry, ForgetsASessionThatNobodyHasUsedForAsLongAsTheLimitSaysAndNoneBefore) {
@@ -106,8 +105,7 @@ TEST(IdleRegistry, ForgetsASessionThatNobodyHasUsedForAsLongAsTheLimitSaysAndNon
     SessionRegistry registry{Limits{.idle_time = limit}, BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
     const auto before = Clock::now();
     const auto used = registry.create(first_id, test::settings()).session;
-    const auto upload = used->open_upload(
-        {}, [](std::size_t /*part*/) {}, [] {});
+    const auto upload = test::open_upload(*used);
     registry.create(second_id, test::settings());
     const auto after = Clock::now();
     registry.end_idle(before + limit - std::chrono::milliseconds(1));
@@ -165,8 +163,8 @@ TEST_F(BusyRegistry, GivesTheBytesOfADeletedSessionsFramesToOthers) {
     const auto session = registry.create(first_id, test::settings()).session;
     std::exception_ptr told;
     InputFrame* lent = nullptr;
-    const auto upload = session->open_upload(
-        {}, [](std::size_t /*part*/) {}, [] {},
+    const auto upload = test::open_upload(
+        *session, {}, [](std::size_t /*part*/) {}, [] {},
         [&](std::exception_ptr error) {
             told = std::move(error);
             session->return_input(*std::exchange(lent, nullptr));
@@ -259,10 +257,7 @@ TEST(OrphanedRegistry, ForgetsASessionWhoseSimulatorVanishedUnlessItIsWatchedOrR
     constexpr auto limit = std::chrono::minutes(2);
     SessionRegistry registry{Limits{.orphan_time = limit}, BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
     const auto later = Clock::now() + 10 * limit;
-    const auto open = [](Session& session) {
-        return session.open_upload(
-            {.run_id = 7}, [](std::size_t /*part*/) {}, [] {});
-    };
+    const auto open = [](Session& session) { return test::open_upload(session, {.run_id = 7}); };
     const auto vanish = [&](Session& session) { session.cancel_upload(open(session), UploadEnd::vanished); };
     const auto watched = registry.create(first_id, test::settings()).session;
     vanish(*watched);
@@ -290,9 +285,7 @@ TEST(OrphanedRegistry, ForgetsASessionThatIsOnlyAskedAbout) {
     SessionRegistry registry{Limits{.idle_time = 10 * limit, .orphan_time = limit},
                              BackendOptions{.backend = Backend::cpu, .threads = 1}, 1};
     const auto session = registry.create(first_id, test::settings()).session;
-    session->cancel_upload(session->open_upload(
-                               {.run_id = 7}, [](std::size_t /*part*/) {}, [] {}),
-                           UploadEnd::vanished);
+    session->cancel_upload(test::open_upload(*session, {.run_id = 7}), UploadEnd::vanished);
     while (!session->unused(Clock::now() + 2 * limit)) std::this_thread::yield();
     const auto vanished = Clock::now();
     // A call that counts as use from then on.
@@ -308,10 +301,7 @@ TEST(OrphanedRegistry, ForgetsASessionWhoseBrokenStreamLookedFirstAsIfItHadEnded
         registry.end_idle(Clock::now() + limit + std::chrono::minutes(1));
         return !session.ended();
     };
-    const auto open = [](Session& session) {
-        return session.open_upload(
-            {.run_id = 7}, [](std::size_t /*part*/) {}, [] {});
-    };
+    const auto open = [](Session& session) { return test::open_upload(session, {.run_id = 7}); };
     const auto wait_for_end = [](Session& session) {
         while (!session.without_stream(Clock::now())) std::this_thread::yield();
     };
@@ -355,9 +345,7 @@ TEST(OrphanedRegistry, ForgetsASessionWhoseSimulatorNeverCameThoughItWasToFollow
         return registry.create(id, test::settings(), {}, {.stream_follows = stream_follows}).session;
     };
     const auto stream = [](Session& session) {
-        session.cancel_upload(session.open_upload(
-                                  {}, [](std::size_t /*part*/) {}, [] {}),
-                              UploadEnd::answered);
+        session.cancel_upload(test::open_upload(session), UploadEnd::answered);
     };
     const auto left = create(first_id, true);
     const auto streamed_in_time = create(second_id, true);

@@ -14,6 +14,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
 #include "meniscus/v1/surface_service.pb.h"
+#include "opened_upload.hpp"
 #include "sessions/limits/refusal.hpp"
 #include "simulator_player.hpp"
 #include "test_frames.hpp"
@@ -152,15 +153,11 @@ TEST_F(SessionPipeline, AnswersWhatCameBeforeABadFrameAndDropsWhatCameAfter) {
 }
 
 TEST_F(SessionPipeline, TakesOneUploadAtATime) {
-    const auto upload = session.open_upload(
-        {}, [](std::size_t /*part*/) {}, [] {});
+    const auto upload = test::open_upload(session);
     EXPECT_TRUE(session.state().uploading);
-    EXPECT_THROW(session.open_upload(
-                     {}, [](std::size_t /*part*/) {}, [] {}),
-                 Refusal);
+    EXPECT_THROW(test::open_upload(session), Refusal);
     session.end_upload(upload, nullptr);
-    EXPECT_NO_THROW(session.open_upload(
-        {}, [](std::size_t /*part*/) {}, [] {}));
+    EXPECT_NO_THROW(test::open_upload(session));
 }
 
 TEST_F(SessionPipeline, SendsStatisticsAloneToWhoWantsNoMeshes) {
@@ -251,9 +248,7 @@ TEST_F(SessionPipeline, EndsUploadAndWatchersWhenClosed) {
     EXPECT_THROW(std::rethrow_exception(simulator.error), Refusal);
     EXPECT_TRUE(watcher.receive().empty());
     EXPECT_EQ(watcher.error, nullptr);
-    EXPECT_THROW(session.open_upload(
-                     {}, [](std::size_t /*part*/) {}, [] {}),
-                 Refusal);
+    EXPECT_THROW(test::open_upload(session), Refusal);
     EXPECT_THROW(session.open_watch(normals(8), [] {}), Refusal);
 }
 

@@ -17,6 +17,7 @@
 
 #include "meniscus/reconstructor.hpp"
 #include "meniscus/v1/surface_service.pb.h"
+#include "opened_upload.hpp"
 #include "sessions/session/session.hpp"
 #include "test_frames.hpp"
 
@@ -28,8 +29,8 @@ inline constexpr const char* id = "00000000-0000-4000-8000-000000000000";
 struct Simulator {
     Simulator(Session& s, const UploadOptions& options)
         : session(s),
-          upload(session.open_upload(
-              options, [awake = awake](std::size_t /*part*/) { awake->release(); }, [this] { ++drained; })) {}
+          upload(test::open_upload(
+              session, options, [awake = awake](std::size_t /*part*/) { awake->release(); }, [this] { ++drained; })) {}
 
     void send(std::uint64_t index, const Particles& particles) {
         std::promise<InputFrame*> lent;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "gated_session.hpp"
+#include "opened_upload.hpp"
 
 namespace meniscus::server::test {
 namespace {
@@ -43,12 +44,10 @@ TEST_F(Policies, EveryFrameHasNoThirdInputSlotOnceThoseOfALatestStreamHaveComeBa
             });
         return lent.size();
     };
-    const auto latest = session.open_upload(
-        {.policy = UploadPolicy::latest}, [](std::size_t /*part*/) {}, [] {});
+    const auto latest = test::open_upload(session, {.policy = UploadPolicy::latest});
     EXPECT_EQ(lend_all(), 3U);
     session.end_upload(latest, nullptr);
-    const auto every_frame = session.open_upload(
-        {}, [](std::size_t /*part*/) {}, [] {});
+    const auto every_frame = test::open_upload(session);
     const std::vector<InputFrame*> borrowed = std::exchange(lent, {});
     for (InputFrame* input : borrowed) session.return_input(*input);  // the request left over takes the first
     EXPECT_EQ(lent.size(), 1U);
