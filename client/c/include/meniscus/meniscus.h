@@ -201,6 +201,13 @@ MENISCUS_API meniscus_result meniscus_reconstructor_statistics(const meniscus_re
 /* A connection to one meniscusd; any thread may use it at any time. Sessions and watchers outlive it. */
 typedef struct meniscus_client meniscus_client;
 /* A session of the server with its one stream: particles go up, meshes come down. */
+/* A library that was built without the service starts a program that has it for each session, `meniscus push`: the one
+ * that MENISCUS_PROGRAM names, or else `meniscus` in PATH, which meniscus_client_connect() looks for; the server is
+ * asked when the session is opened. Frames then have index, time and figures, but no mesh. What else is not to be had
+ * through that program returns MENISCUS_UNIMPLEMENTED, with a sentence: watchers, meniscus_client_delete_session(),
+ * meniscus_session_leave(), meniscus_session_try_push(), meniscus_frame_mesh(), and the options timeout, route-check
+ * and ephemeral set to false. Options about meshes change nothing there. */
+
 typedef struct meniscus_session meniscus_session;
 /* Receives the meshes of somebody's session: always the newest. */
 typedef struct meniscus_watcher meniscus_watcher;
