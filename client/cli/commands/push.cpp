@@ -71,7 +71,6 @@ void push(const PushOptions& options, AnswerLines& lines) {
     Warnings warnings(options.strict);
     client::StreamOptions stream_options = options.stream;
     stream_options.receive_meshes = false;
-    stream_options.waiting_limit = frames_ahead;
     client::Stream stream = session.stream(stream_options);
     const auto answer = [&](const client::ReceivedFrame& frame) {
         const std::string name = "frame " + std::to_string(frame.index);

@@ -19,6 +19,9 @@
 namespace meniscus::cli {
 namespace {
 
+/// Frames under way: enough to keep the server busy.
+constexpr std::size_t frames_ahead = 4;
+
 struct ReplayOptions {
     RecordingSelection recording;
     ServerFlags server;

@@ -1,7 +1,6 @@
 // The answers to a stream's frames, while another thread goes on pushing.
 #pragma once
 
-#include <cstddef>
 #include <exception>
 #include <functional>
 #include <thread>
@@ -9,9 +8,6 @@
 #include "meniscus/client/client.hpp"
 
 namespace meniscus::cli {
-
-/// Frames under way of a stream without meshes: enough to keep the server busy.
-inline constexpr std::size_t frames_ahead = 4;
 
 /// Takes a stream's answers, on a thread of its own, until the stream ends.
 class StreamAnswers {
