@@ -9,4 +9,17 @@ std::string sha256_of(std::string_view bytes) {
     return sha.hexadecimal();
 }
 
+std::string Sha256::hexadecimal() {
+    return meniscus::hexadecimal(digest());
+}
+
+std::string hexadecimal(std::span<const std::byte> bytes) {
+    std::string text;
+    for (const std::byte byte : bytes) {
+        text += "0123456789abcdef"[std::to_integer<unsigned>(byte >> 4)];
+        text += "0123456789abcdef"[std::to_integer<unsigned>(byte & std::byte{15})];
+    }
+    return text;
+}
+
 }  // namespace meniscus

@@ -24,6 +24,9 @@ public:
     /// beyond the limit, before memory is allocated by it.
     std::optional<std::string> next(std::size_t limit);
 
+    /// Throws InvalidInput: "PATH: message".
+    [[noreturn]] void fail(const std::string& message) const { file_->fail(message); }
+
 private:
     const RandomAccessFile* file_;
     std::uint64_t position_;

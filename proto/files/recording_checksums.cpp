@@ -28,6 +28,25 @@ std::uint64_t checksum(std::string_view bytes) {
     return XXH3_64bits(bytes.data(), bytes.size());
 }
 
+struct RunningChecksum::State {
+    XXH3_state_t hash;
+};
+
+RunningChecksum::RunningChecksum() : state_(new State) {
+    XXH3_64bits_reset(&state_->hash);
+}
+RunningChecksum::~RunningChecksum() = default;
+RunningChecksum::RunningChecksum(RunningChecksum&&) noexcept = default;
+RunningChecksum& RunningChecksum::operator=(RunningChecksum&&) noexcept = default;
+
+void RunningChecksum::add(std::string_view bytes) {
+    XXH3_64bits_update(&state_->hash, bytes.data(), bytes.size());
+}
+
+std::uint64_t RunningChecksum::value() const {
+    return XXH3_64bits_digest(&state_->hash);
+}
+
 std::string seal(v1::RecordingEntry entry) {
     entry.clear_checksum();
     std::string bytes = entry.SerializeAsString();
@@ -43,14 +62,11 @@ bool is_sealed(std::string_view entry) {
 bool is_whole(const RandomAccessFile& file, const RecordedRange& range) {
     if (!range.checksum) return true;
     constexpr std::uint64_t piece = std::uint64_t{1} << 20U;
-    XXH3_state_t state;
-    XXH3_64bits_reset(&state);
+    RunningChecksum sum;
     const std::uint64_t end = range.first + range.size;
-    for (std::uint64_t at = range.first; at < end; at += piece) {
-        const std::string bytes = file.read(at, static_cast<std::size_t>(std::min(piece, end - at)));
-        XXH3_64bits_update(&state, bytes.data(), bytes.size());
-    }
-    return XXH3_64bits_digest(&state) == *range.checksum;
+    for (std::uint64_t at = range.first; at < end; at += piece)
+        sum.add(file.read(at, static_cast<std::size_t>(std::min(piece, end - at))));
+    return sum.value() == *range.checksum;
 }
 
 }  // namespace meniscus::files

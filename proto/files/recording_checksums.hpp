@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,23 @@ struct RecordedRange {
 };
 
 std::uint64_t checksum(std::string_view bytes);
+
+/// The checksum of bytes that come piece by piece.
+class RunningChecksum {
+public:
+    RunningChecksum();
+    ~RunningChecksum();
+    RunningChecksum(RunningChecksum&&) noexcept;
+    RunningChecksum& operator=(RunningChecksum&&) noexcept;
+
+    void add(std::string_view bytes);
+    /// Of the bytes so far.
+    std::uint64_t value() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 /// The bytes of an entry, ending with its checksum.
 std::string seal(v1::RecordingEntry entry);

@@ -1,8 +1,10 @@
 #include "files/recording_scan.hpp"
 
-#include <google/protobuf/unknown_field_set.h>
+#include <utility>
 
+#include "files/recording_entries.hpp"
 #include "files/recording_format.hpp"
+#include "meniscus/error.hpp"
 
 namespace meniscus::files {
 
@@ -13,16 +15,13 @@ RecordingScan::RecordingScan(const RandomAccessFile& file)
     entry_at_ = messages_.position();
     const auto bytes = messages_.next(max_recording_entry_bytes);
     if (!bytes) file_.fail("cut within its first entry: it holds nothing");
-    v1::RecordingEntry entry;
-    if (!entry.ParseFromString(*bytes)) fail("no entry of a recording");
-    if (!entry.has_begin()) file_.fail("its first entry is not its beginning");
-    begin_ = entry.begin();
-    if (begin_.version() != recording_version)
-        file_.fail("a recording of format version " + std::to_string(begin_.version()) +
-                   "; this program reads version " + std::to_string(recording_version) +
-                   ": read it with the Meniscus that wrote it");
-    has_checksums_ = entry.has_checksum();
-    require_sealed(*bytes, entry);
+    try {
+        RecordingBeginning beginning = read_beginning(*bytes);
+        begin_ = std::move(beginning.begin);
+        has_checksums_ = beginning.has_checksums;
+    } catch (const InvalidInput& e) {
+        file_.fail(e.what());
+    }
 }
 
 std::optional<RecordingScan::Item> RecordingScan::next() {
@@ -31,14 +30,11 @@ std::optional<RecordingScan::Item> RecordingScan::next() {
         const auto bytes = messages_.next(max_recording_entry_bytes);
         if (!bytes) return std::nullopt;
         Item item;
-        if (!item.entry.ParseFromString(*bytes)) fail("no entry of a recording");
-        if (item.entry.has_begin()) fail("a second beginning");
-        const bool known = item.entry.entry_case() != v1::RecordingEntry::ENTRY_NOT_SET;
-        // An entry of a later version has fields that this one does not know. An empty entry is a run of zeros, as some
-        // file systems leave them after a crash.
-        if (!known && v1::RecordingEntry::GetReflection()->GetUnknownFields(item.entry).empty())
-            fail("an entry of no kind");
-        require_sealed(*bytes, item.entry);
+        try {
+            item.entry = read_entry(*bytes, has_checksums_);
+        } catch (const InvalidInput& e) {
+            fail(e.what());
+        }
         item.messages = {.first = messages_.position(), .size = item.entry.bytes(), .checksum = std::nullopt};
         if (item.entry.has_messages_checksum()) item.messages.checksum = item.entry.messages_checksum();
         if (item.messages.size > file_.size() - item.messages.first) {
@@ -46,15 +42,10 @@ std::optional<RecordingScan::Item> RecordingScan::next() {
             return std::nullopt;
         }
         messages_.skip(item.messages.size);
-        if (!known) continue;
+        if (!is_known(item.entry)) continue;
         last_frame_ = item.entry.has_mesh() ? item.entry.mesh().frame_index() : item.entry.particles().frame_index();
         return item;
     }
-}
-
-void RecordingScan::require_sealed(const std::string& bytes, const v1::RecordingEntry& entry) const {
-    if ((has_checksums_ || entry.has_checksum()) && !is_sealed(bytes))
-        fail("an entry that does not have its checksum: the file is damaged");
 }
 
 void RecordingScan::fail(const std::string& what) const {

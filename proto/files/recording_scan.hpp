@@ -40,9 +40,6 @@ public:
     [[noreturn]] void fail(const std::string& what) const;
 
 private:
-    /// Throws for an entry that should have its checksum and does not.
-    void require_sealed(const std::string& bytes, const v1::RecordingEntry& entry) const;
-
     const RandomAccessFile& file_;
     DelimitedMessages messages_;
     std::uint64_t entry_at_ = 0;

@@ -3,8 +3,11 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <optional>
+
 #include "files/recording_format.hpp"
 #include "files/recording_scan.hpp"
+#include "formats/recordings/recording_stream.hpp"
 #include "recording/recording_entries.hpp"
 #include "support.hpp"
 
@@ -53,6 +56,24 @@ void recording(Bytes bytes) {
                 require(particles.view().count() == recorded.particle_count, "all of a frame's particles");
             });
             if (recorded.mesh) may_refuse([&] { (void)recording.mesh(recorded); });
+        }
+    });
+}
+
+void piped_recording(Bytes bytes) {
+    const MemoryFile file(bytes);
+    may_refuse([&] {
+        formats::RecordingStream stream(file.path());
+        formats::RecordedParticles particles;
+        std::optional<std::uint64_t> last;
+        while (const auto frame = stream.next(particles)) {
+            require(!last || frame->index > *last, "indices rise");
+            last = frame->index;
+            const std::size_t count = particles.view().count();
+            require(particles.levels.empty() || particles.levels.size() == count, "a level of each particle");
+            for (const formats::NamedValues& array : particles.arrays)
+                require(array.count() == count, "a value of each particle");
+            require(count <= bytes.size(), "particles have bytes");
         }
     });
 }

@@ -103,6 +103,8 @@ void brick_file(Bytes bytes);
 Seeds brick_file_seeds();
 void recording(Bytes bytes);
 Seeds recording_seeds();
+/// A recording as `meniscus push` reads it, front to back.
+void piped_recording(Bytes bytes);
 
 /// A publication's manifest.
 void publication_manifest(Bytes bytes);

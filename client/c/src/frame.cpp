@@ -38,12 +38,7 @@ meniscus_result meniscus_frame_mesh(const meniscus_frame* frame, meniscus_mesh* 
 
 meniscus_result meniscus_frame_statistics(const meniscus_frame* frame, meniscus_statistics* statistics) {
     return guarded([&] {
-        const meniscus::client::FrameStatistics& figures = required(frame, "frame").content.statistics;
-        meniscus_statistics out = to_c(figures);
-        out.encode_seconds = figures.encode_seconds;
-        out.latency_seconds = figures.latency_seconds;
-        out.encoded_bytes = figures.encoded_bytes;
-        write_struct(out, statistics, "statistics");
+        write_struct(to_c(required(frame, "frame").content.statistics), statistics, "statistics");
         return MENISCUS_OK;
     });
 }

@@ -62,6 +62,16 @@ Given<Number> numbers_of(const Elements& elements) {
     return {elements.empty() ? nullptr : elements.front().data(), elements.size()};
 }
 
+/// hash: of a mesh, as 64 digits.
+meniscus_result give_hash(const meniscus_mesh* mesh, char* digits, std::string (*hash)(const meniscus::Mesh&)) {
+    return guarded([&] {
+        const std::string text = hash(required(mesh, "mesh").content);
+        static_assert(MENISCUS_SHA256_SIZE == 64 + 1);
+        std::memcpy(&required(digits, "digits"), text.c_str(), MENISCUS_SHA256_SIZE);
+        return MENISCUS_OK;
+    });
+}
+
 }  // namespace
 
 meniscus_result meniscus_mesh_create(meniscus_mesh** mesh) {
@@ -132,10 +142,9 @@ meniscus_result meniscus_mesh_attributes(meniscus_mesh* mesh, const meniscus_arr
 }
 
 meniscus_result meniscus_mesh_sha256(const meniscus_mesh* mesh, char digits[MENISCUS_SHA256_SIZE]) {
-    return guarded([&] {
-        const std::string hash = meniscus::mesh_sha256(required(mesh, "mesh").content);
-        static_assert(MENISCUS_SHA256_SIZE == 64 + 1);
-        std::memcpy(&required(digits, "digits"), hash.c_str(), MENISCUS_SHA256_SIZE);
-        return MENISCUS_OK;
-    });
+    return give_hash(mesh, digits, meniscus::mesh_sha256);
+}
+
+meniscus_result meniscus_mesh_bricks_sha256(const meniscus_mesh* mesh, char digits[MENISCUS_SHA256_SIZE]) {
+    return give_hash(mesh, digits, meniscus::bricks_sha256);
 }

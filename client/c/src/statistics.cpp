@@ -25,4 +25,12 @@ meniscus_statistics to_c(const Statistics& statistics) {
     return out;
 }
 
+meniscus_statistics to_c(const client::FrameStatistics& statistics) {
+    meniscus_statistics out = to_c(static_cast<const Statistics&>(statistics));
+    out.encode_seconds = statistics.encode_seconds;
+    out.latency_seconds = statistics.latency_seconds;
+    out.encoded_bytes = statistics.encoded_bytes;
+    return out;
+}
+
 }  // namespace meniscus::c

@@ -99,6 +99,7 @@ int run(int argc, const char* const* argv) {
     add_top(app);
     add_recordings(app);
     add_replay(app);
+    add_push(app);
     add_convert(app);
     add_publish(app);
     add_completion(app);

@@ -18,6 +18,7 @@ void add_sessions(CLI::App& app);
 void add_top(CLI::App& app);
 void add_recordings(CLI::App& app);
 void add_replay(CLI::App& app);
+void add_push(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_publish(CLI::App& app);
 void add_completion(CLI::App& app);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "cli/print/listener.hpp"
-#include "cli/print/statistics_json.hpp"
 #include "cli/print/statistics_text.hpp"
 #include "formats/bytes/atomic_file.hpp"
 #include "formats/bytes/standard_streams.hpp"
@@ -14,7 +13,6 @@
 #include "formats/meshes/pvd_writer.hpp"
 #include "formats/meshes/usda_writer.hpp"
 #include "meniscus/error.hpp"
-#include "meniscus/mesh_hash.hpp"
 
 namespace meniscus::cli {
 
@@ -40,7 +38,7 @@ FinishedFrame ReconstructReport::prepare(Surface& surface, std::size_t index, st
     frame.runs = std::move(runs);
     if (!files_.spray_out.empty()) frame.spray.assign(surface.spray().begin(), surface.spray().end());
     if (!files_.stats.empty()) {
-        frame.mesh_sha256 = mesh_sha256(surface.mesh());
+        frame.hashes = MeshHashes(surface.mesh());
         frame.attributes = attributes_json(surface.mesh());
     }
     if (!files_.out.empty() || options_.check)
@@ -59,7 +57,7 @@ void ReconstructReport::deliver(FinishedFrame finished) {
     if (!files_.stats.empty()) {
         nlohmann::ordered_json figures;
         if (plan_.sequence) figures["frame"] = frame.number;
-        figures.update(to_json(finished.runs, finished.mesh_sha256));
+        figures.update(to_json(finished.runs, finished.hashes));
         figures["attributes"] = std::move(finished.attributes);
         for (const FileWarning& warning : finished.warnings) figures["warnings"].push_back(to_json(warning));
         figures_.push_back(std::move(figures));

@@ -9,6 +9,7 @@
 #include "cli/commands/reconstruct_plan.hpp"
 #include "cli/options/verbosity.hpp"
 #include "cli/print/progress_bar.hpp"
+#include "cli/print/statistics_json.hpp"
 #include "cli/print/warnings.hpp"
 #include "cli/surfaces/mesh_check.hpp"
 #include "meniscus/statistics.hpp"
@@ -31,7 +32,7 @@ struct FinishedFrame {
     std::vector<FileWarning> warnings;
     std::optional<MeshOutput> mesh;  ///< none: only figures are asked for
     std::vector<Point> spray;
-    std::string mesh_sha256;            ///< empty: not asked for
+    MeshHashes hashes;                  ///< empty: not asked for
     nlohmann::ordered_json attributes;  ///< ranges
 };
 

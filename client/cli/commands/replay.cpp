@@ -1,9 +1,7 @@
 // meniscus replay: the particles of a recording, uploaded again.
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <iostream>
 #include <memory>
-#include <thread>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/examples.hpp"
@@ -16,6 +14,7 @@
 #include "cli/sequence/recording_files.hpp"
 #include "cli/sequence/replay_pace.hpp"
 #include "cli/surfaces/opened_session.hpp"
+#include "cli/surfaces/stream_answers.hpp"
 
 namespace meniscus::cli {
 namespace {
@@ -33,48 +32,6 @@ struct ReplayOptions {
     Verbosity verbosity;
 };
 
-/// Takes a stream's answers, on a thread of its own, until the stream ends.
-class Answers {
-public:
-    /// warnings: used by that thread alone until finish() returns.
-    Answers(client::Stream& stream, Warnings& warnings, bool quiet)
-        : stream_(stream), warnings_(warnings), quiet_(quiet), thread_([this] { take(); }) {}
-    ~Answers() {
-        if (thread_.joinable()) end();
-    }
-    Answers(const Answers&) = delete;
-    Answers& operator=(const Answers&) = delete;
-
-    /// Waits for the answers to all frames. Throws the error that one of them met.
-    void finish() {
-        end();
-        if (error_) std::rethrow_exception(error_);
-    }
-
-private:
-    void end() {
-        stream_.finish();
-        thread_.join();
-    }
-
-    void take() {
-        try {
-            while (const auto frame = stream_.next()) {
-                if (!quiet_) std::cerr << "frame " << frame->index << ": " << summary(frame->statistics) << '\n';
-                warnings_.say("frame " + std::to_string(frame->index), frame->statistics.warnings);
-            }
-        } catch (...) {
-            error_ = std::current_exception();
-        }
-    }
-
-    client::Stream& stream_;
-    Warnings& warnings_;
-    bool quiet_;
-    std::exception_ptr error_;
-    std::thread thread_;
-};
-
 void upload(const formats::Recording& recording, const ReplayOptions& options, client::Stream& stream,
             Warnings& warnings) {
     const auto frames = recording.frames(options.recording.from, options.recording.to);
@@ -84,7 +41,11 @@ void upload(const formats::Recording& recording, const ReplayOptions& options, c
     // Between the last frame and the first of the next round: as between any two.
     const auto interval = frames.size() > 1 ? seconds / static_cast<double>(frames.size() - 1) : seconds;
     ReplayPace pace(options.speed);
-    Answers answers(stream, warnings, options.verbosity.quiet);
+    StreamAnswers answers(stream, [&](const client::ReceivedFrame& frame) {
+        const std::string name = "frame " + std::to_string(frame.index);
+        if (!options.verbosity.quiet) std::cerr << name << ": " << summary(frame.statistics) << '\n';
+        warnings.say(name, frame.statistics.warnings);
+    });
     for (std::uint64_t round = 0; round == 0 || options.loop; ++round)
         for (const formats::RecordedFrame& frame : frames) {
             if (!options.verbosity.quiet) require_listener();
@@ -100,12 +61,7 @@ void upload(const formats::Recording& recording, const ReplayOptions& options, c
 
 void replay(const ReplayOptions& options) {
     const formats::Recording recording = options.recording.open();
-    SessionFlags flags = options.session;
-    if (flags.description.name.empty()) flags.description.name = recording.description().name;
-    if (flags.description.up_axis == client::UpAxis::unspecified)
-        flags.description.up_axis = recording.description().up_axis;
-    if (flags.description.length_unit.empty()) flags.description.length_unit = recording.description().length_unit;
-    OpenedSession session(options.server, flags, recording.settings());
+    OpenedSession session(options.server, options.session.over(recording.description()), recording.settings());
     if (!options.verbosity.quiet) std::cerr << "session " << session.id() << '\n';
     Warnings warnings(options.strict);
     client::Stream stream = session.stream({.receive_meshes = false, .waiting_limit = frames_ahead});

@@ -28,7 +28,6 @@
 #include "formats/bytes/atomic_file.hpp"
 #include "formats/particles/vtk_writer.hpp"
 #include "meniscus/error.hpp"
-#include "meniscus/mesh_hash.hpp"
 #include "simulator/adaptive_levels.hpp"
 #include "simulator/simulation.hpp"
 
@@ -122,7 +121,7 @@ void simulate(const SimulateOptions& options) {
         const client::FrameStatistics& s = surface.statistics();
         if (!options.stats.empty()) {
             nlohmann::ordered_json figures{{"frame", surface.index()}};
-            figures.update(to_json({s}, mesh_sha256(surface.mesh())));
+            figures.update(to_json({s}, MeshHashes(surface.mesh())));
             figures["attributes"] = attributes_json(surface.mesh());
             frames.push_back(std::move(figures));
         }

@@ -1,9 +1,12 @@
 #include "cli/options/policy_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <limits>
 
 #include "cli/options/named_option.hpp"
+#include "cli/options/number_range.hpp"
+#include "cli/options/seconds_option.hpp"
 
 namespace meniscus::cli {
 
@@ -16,6 +19,16 @@ CLI::Option* add_policy_options(CLI::App& command, client::StreamOptions& stream
         ->needs(policy)
         ->capture_default_str();
     return policy;
+}
+
+void add_stream_options(CLI::App& command, client::StreamOptions& stream, CLI::Option& server) {
+    add_policy_options(command, stream)->needs(&server);
+    stream.reconnect = std::chrono::seconds(30);
+    add_seconds(command, "--reconnect", stream.reconnect,
+                "With --server: seconds for which a server that is out of reach is tried again; 0: no retries")
+        ->check(number_range(0.0, 1e6))
+        ->default_str("30")
+        ->needs(&server);
 }
 
 }  // namespace meniscus::cli

@@ -1,4 +1,4 @@
-// The flags --policy and --nth, of whatever uploads.
+// The flags --policy, --nth and --reconnect, of whatever uploads.
 #pragma once
 
 #include "meniscus/client/client.hpp"
@@ -10,7 +10,10 @@ class Option;
 
 namespace meniscus::cli {
 
-/// Returns --policy, so that the command can say which flags it requires.
+/// --policy and --nth. Returns --policy, so that the command can say which flags it requires.
 CLI::Option* add_policy_options(CLI::App& command, client::StreamOptions& stream);
+
+/// All three, of a command with a session on a server. server: the option that they need.
+void add_stream_options(CLI::App& command, client::StreamOptions& stream, CLI::Option& server);
 
 }  // namespace meniscus::cli

@@ -72,7 +72,7 @@ client::Client ServerFlags::connect() const {
     try {
         return client::Client(address, connection());
     } catch (const client::ServerError& e) {
-        throw InvalidInput(e.what());
+        throw ServerNotReached(e);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "meniscus/client/client.hpp"
+#include "meniscus/error.hpp"
 
 namespace CLI {
 class App;
@@ -11,6 +12,16 @@ class Option;
 }  // namespace CLI
 
 namespace meniscus::cli {
+
+/// There is no server where the flags say.
+class ServerNotReached : public InvalidInput {
+public:
+    explicit ServerNotReached(const client::ServerError& error) : InvalidInput(error.what()), code_(error.code()) {}
+    client::ErrorCode code() const noexcept { return code_; }
+
+private:
+    client::ErrorCode code_;
+};
 
 /// --server, --tls-ca, --tls-cert, --tls-key, --tls-server-name, --token-file, --insecure and --wait.
 struct ServerFlags {
@@ -23,7 +34,7 @@ struct ServerFlags {
     /// Flags that are not given are taken from MENISCUS_TOKEN, MENISCUS_SERVER_CA and MENISCUS_SERVER_NAME. Throws
     /// InvalidInput for a file that cannot be read.
     client::ConnectionOptions connection() const;
-    /// A client over that connection. Throws InvalidInput if there is no server.
+    /// A client over that connection. Throws ServerNotReached if there is no server.
     client::Client connect() const;
 };
 

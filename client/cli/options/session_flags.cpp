@@ -69,4 +69,13 @@ void SessionFlags::add_to(CLI::App& command, CLI::Option& server) {
         ->needs(&server);
 }
 
+SessionFlags SessionFlags::over(const client::SessionDescription& recorded) const {
+    SessionFlags flags = *this;
+    client::SessionDescription& own = flags.description;
+    if (own.name.empty()) own.name = recorded.name;
+    if (own.up_axis == client::UpAxis::unspecified) own.up_axis = recorded.up_axis;
+    if (own.length_unit.empty()) own.length_unit = recorded.length_unit;
+    return flags;
+}
+
 }  // namespace meniscus::cli

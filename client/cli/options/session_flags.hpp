@@ -27,6 +27,8 @@ struct SessionFlags {
 
     /// server: the option that they need.
     void add_to(CLI::App& command, CLI::Option& server);
+    /// With the name, the axis and the unit of a recording's session where they are not given.
+    SessionFlags over(const client::SessionDescription& recorded) const;
 };
 
 }  // namespace meniscus::cli

@@ -5,8 +5,12 @@
 
 #include "cli/print/row_json.hpp"
 #include "meniscus/attribute_coding.hpp"
+#include "meniscus/mesh_hash.hpp"
 
 namespace meniscus::cli {
+
+MeshHashes::MeshHashes(const Mesh& mesh)
+    : mesh_sha256(meniscus::mesh_sha256(mesh)), bricks_sha256(meniscus::bricks_sha256(mesh)) {}
 
 const Statistics& median_run(const std::vector<Statistics>& runs) {
     if (runs.size() == 1) return runs.front();
@@ -17,10 +21,11 @@ const Statistics& median_run(const std::vector<Statistics>& runs) {
     return *warm[(warm.size() - 1) / 2];
 }
 
-nlohmann::ordered_json to_json(const std::vector<Statistics>& runs, const std::string& mesh_sha256) {
+nlohmann::ordered_json to_json(const std::vector<Statistics>& runs, const MeshHashes& hashes) {
     nlohmann::ordered_json out = rows_json(median_run(runs));
     out["first_seconds"] = runs.front().total_seconds;
-    out["mesh_sha256"] = mesh_sha256;
+    out["mesh_sha256"] = hashes.mesh_sha256;
+    out["bricks_sha256"] = hashes.bricks_sha256;
     return out;
 }
 

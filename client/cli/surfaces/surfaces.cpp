@@ -1,7 +1,6 @@
 #include "cli/surfaces/surfaces.hpp"
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <string>
 #include <utility>
 
@@ -10,10 +9,8 @@
 #include "cli/options/named_option.hpp"
 #include "cli/options/normal_bits.hpp"
 #include "cli/options/normals_by.hpp"
-#include "cli/options/number_range.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/policy_options.hpp"
-#include "cli/options/seconds_option.hpp"
 #include "cli/surfaces/local_surfaces.hpp"
 #include "cli/surfaces/server_surfaces.hpp"
 #include "formats/recordings/brick_file.hpp"
@@ -61,20 +58,6 @@ const client::ReceivedFrame& Surface::encoded() const {
 CLI::Option* add_backend_option(CLI::App& command, Backend& backend) {
     return add_named_option(command, "--backend", backend, "Backend of this process; auto: a GPU if one can be used");
 }
-
-namespace {
-
-void add_stream_options(CLI::App& command, client::StreamOptions& stream, CLI::Option& server) {
-    add_policy_options(command, stream)->needs(&server);
-    stream.reconnect = std::chrono::seconds(30);
-    add_seconds(command, "--reconnect", stream.reconnect,
-                "With --server: seconds for which a server that is out of reach is tried again; 0: no retries")
-        ->check(number_range(0.0, 1e6))
-        ->default_str("30")
-        ->needs(&server);
-}
-
-}  // namespace
 
 void SurfacesOptions::add_to(CLI::App& command) {
     const OptionGroup group(command, place_heading);

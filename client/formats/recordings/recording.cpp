@@ -6,14 +6,12 @@
 #include <limits>
 #include <utility>
 
-#include "conversion/settings_conversion.hpp"
-#include "description/label.hpp"
 #include "formats/bytes/byte_cursor.hpp"
 #include "formats/recordings/brick_file.hpp"
 #include "formats/recordings/recorded_particles.hpp"
+#include "formats/recordings/recorded_session.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/recording.pb.h"
-#include "receiving/session_description.hpp"
 
 namespace meniscus::formats {
 namespace {
@@ -47,24 +45,13 @@ private:
     void begin(const v1::RecordingBegin& begin) {
         if (!is_session_id(begin.session_id())) file_.fail("its session id is " + quoted(begin.session_id()));
         try {
-            recording_.settings_ = conversion::from_wire(begin.settings());
-            validate(recording_.settings_);
+            recording_.settings_ = recorded_settings(begin);
         } catch (const InvalidInput& e) {
             file_.fail(e.what());
         }
         recording_.session_id_ = begin.session_id();
         recording_.started_at_ = time(begin.started_at());
-        recording_.description_ = description_of(begin.description());
-    }
-
-    static client::SessionDescription description_of(const v1::SessionDescription& wire) {
-        try {
-            description::require_name(wire.name());
-            description::require_length_unit(wire.length_unit());
-            return client::from_wire(wire);
-        } catch (const InvalidInput&) {
-            return {};
-        }
+        recording_.description_ = recorded_description(begin);
     }
 
     void take(const v1::RecordedParticles& particles, RecordedRange messages) {

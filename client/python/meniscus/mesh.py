@@ -148,6 +148,13 @@ class Mesh:
         """The identity of the geometry, as ``mesh_sha256`` of the command line: 64 hexadecimal digits."""
         return self._raw.sha256()
 
+    def bricks_sha256(self) -> str:
+        """The identity of the geometry as a sum over its bricks: ``bricks_sha256`` of the command line.
+
+        Where several processes have some bricks each, theirs add up to it, modulo 2**256, as 64 hexadecimal digits.
+        """
+        return self._raw.bricks_sha256()
+
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes the mesh as its extension says: .ply, .obj, .vtk, .vtp, .vtu, .npz, .glb, .usda, .stl or .bricks.
 

@@ -10,7 +10,7 @@ Sha256::Sha256() : context_(nullptr, nullptr) {
 
 void Sha256::add(std::span<const std::byte> /*bytes*/) {}
 
-std::string Sha256::hexadecimal() {
+std::array<std::byte, Sha256::digest_bytes> Sha256::digest() {
     return {};
 }
 

@@ -27,6 +27,9 @@ TEST(CInProcess, GivesTheLibrarysMeshToTheByte) {
         const meniscus_particles input = c_frame(particles);
         ASSERT_EQ(meniscus_reconstruct(reconstructor.get(), &input, mesh.get()), MENISCUS_OK);
         EXPECT_EQ(sha256(mesh), mesh_sha256(expected));
+        char digits[MENISCUS_SHA256_SIZE];
+        EXPECT_EQ(meniscus_mesh_bricks_sha256(mesh.get(), digits), MENISCUS_OK) << meniscus_error_message();
+        EXPECT_EQ(digits, bricks_sha256(expected));
 
         const double* vertices = nullptr;
         const float* rounded = nullptr;
@@ -365,6 +368,7 @@ TEST(CInProcess, ANullIsAnErrorAndNoCrash) {
         meniscus_mesh_vertices(mesh.get(), &vertices, nullptr),
         meniscus_mesh_sha256(nullptr, digits),
         meniscus_mesh_sha256(mesh.get(), nullptr),
+        meniscus_mesh_bricks_sha256(nullptr, digits),
     };
     for (const meniscus_result result : results) EXPECT_TRUE(refused(result, MENISCUS_INVALID_INPUT, "is NULL"));
     meniscus_options_destroy(nullptr);

@@ -9,9 +9,9 @@
 namespace meniscus::test {
 namespace {
 
-const std::vector<std::string> commands{"reconstruct", "simulate", "watch",    "picture",    "compare",
-                                        "check",       "info",     "sessions", "top",        "recordings",
-                                        "replay",      "convert",  "publish",  "completion", "help"};
+const std::vector<std::string> commands{"reconstruct", "simulate", "watch",      "picture",    "compare", "check",
+                                        "info",        "sessions", "top",        "recordings", "replay",  "push",
+                                        "convert",     "publish",  "completion", "help"};
 
 TEST(Help, OfACommandIsTheSameByFlagAndByCommandAndHasExamples) {
     for (const std::string& command : commands) {

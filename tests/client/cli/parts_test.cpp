@@ -202,7 +202,7 @@ TEST(Statistics, ReportTheMedianWarmRunAndTheColdOne) {
     runs[2].total_seconds = 1.0;
     runs[3].total_seconds = 2.0;
     EXPECT_EQ(median_run(runs).total_seconds, 2.0);
-    EXPECT_EQ(to_json(runs, "x").at("first_seconds"), 9.0);
+    EXPECT_EQ(to_json(runs, {}).at("first_seconds"), 9.0);
     runs.resize(1);
     EXPECT_EQ(median_run(runs).total_seconds, 9.0);
     runs.resize(3);

@@ -9,6 +9,9 @@ import sys
 
 import numpy as np
 
+from support import command_line
+from support.programs import environment_of_programs
+
 repository = pathlib.Path(__file__).parents[3]
 examples = repository / "client" / "python" / "examples"
 
@@ -53,6 +56,26 @@ def test_the_loop_with_a_callback_takes_or_leaves_every_step(server, tmp_path):
     assert len(indices) + left_out + dropped == 200
     assert "velocity" in last
     assert len(np.load(tmp_path / "last.npz")["velocity"]) > 100
+
+
+def test_frames_made_with_numpy_alone_come_through_a_pipe(server):
+    command = [sys.executable, "-B", "-W", "error", examples / "piped_frames.py"]
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE) as frames:
+        push = [command_line.program, "push", "-", "--server", server.address, "--answers", "-", "-q"]
+        pushed = subprocess.run(
+            [*push, "-r", "0.025", "--attribute", "speed"],
+            stdin=frames.stdout,
+            capture_output=True,
+            text=True,
+            env=environment_of_programs(),
+            timeout=120,
+        )
+    assert (pushed.returncode, pushed.stderr, frames.returncode) == (0, "", 0)
+    session, *answers, end = map(json.loads, pushed.stdout.splitlines())
+    assert [answer["frame"] for answer in answers] == list(range(20))
+    assert all(answer["particles"] == 4096 and answer["triangles"] > 100 for answer in answers)
+    assert answers[3]["simulation_time"] == 3 * 0.01
+    assert end == {"ended": True, "dropped": 0}
 
 
 def test_the_notebook_runs_without_jupyter(server, monkeypatch, tmp_path):

@@ -111,6 +111,7 @@ def test_files_are_those_of_the_command_line_to_the_byte(extension, positions, c
     )
     mesh = meniscus.reconstruct(positions, particle_radius, attributes=carried)
     assert mesh.sha256() == figures["mesh_sha256"]
+    assert mesh.bricks_sha256() == figures["bricks_sha256"]
     mesh.save(tmp_path / f"found{extension}")
     mesh.save(os.fspath(tmp_path / f"as_text{extension}"))
     # At the end of .bricks are the frame's figures, with the times that it took.

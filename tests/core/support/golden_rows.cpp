@@ -6,6 +6,7 @@
 #include <map>
 
 #include "meniscus/mesh_hash.hpp"
+#include "meniscus/sha256.hpp"
 #include "support/golden_scenes.hpp"
 
 namespace meniscus::test {
@@ -158,15 +159,18 @@ void expect_golden_meshes(const GoldenReconstruction& reconstruct) {
     std::map<std::string_view, GoldenHashes> expected;
     for (const GoldenHashes& hashes : golden_hashes())
         EXPECT_TRUE(expected.emplace(hashes.row, hashes).second) << hashes.row << " has two lines";
+    std::string bricks;
     for (const GoldenRow& row : golden_rows()) {
         const Mesh mesh = reconstruct(row, scenes.at(row.scene).frame());
         EXPECT_FALSE(mesh.triangles.empty()) << row.name;
         const std::string sha256 = mesh_sha256(mesh), bytes = golden_bytes(mesh);
+        bricks += bricks_sha256(mesh);
         const auto found = expected.extract(row.name);
         if (!found || found.mapped().mesh_sha256 != sha256 || found.mapped().bytes != bytes)
             ADD_FAILURE() << "this mesh is not the golden one; its line would be\n        {\"" << row.name << "\", \""
                           << sha256 << "\", \"" << bytes << "\"},";
     }
+    EXPECT_EQ(sha256_of(bricks), golden_bricks);
     for (const auto& entry : expected) ADD_FAILURE() << "no row is named \"" << entry.first << "\"";
 }
 

@@ -46,6 +46,9 @@ struct GoldenHashes {
 };
 std::vector<GoldenHashes> golden_hashes();
 
+/// SHA-256 over the digits of bricks_sha256 of all rows, one after the other.
+inline constexpr std::string_view golden_bricks = "27c3de74ef1466bdaa657b501e30919c7dd046fe0dccc2521422d77e44526c1a";
+
 /// FNV-1a with 64 bits, as 16 hexadecimal digits, over the bytes of vertices, normals, triangles and bricks in the
 /// mesh's order, and its levels' ranges: all that mesh_sha256 leaves out.
 std::string golden_bytes(const Mesh& mesh);

@@ -146,6 +146,9 @@ MENISCUS_API meniscus_result meniscus_mesh_attributes(meniscus_mesh* mesh, const
 #define MENISCUS_SHA256_SIZE 65
 /* The identity of the geometry as the command line's mesh_sha256: 64 hexadecimal digits and a 0. */
 MENISCUS_API meniscus_result meniscus_mesh_sha256(const meniscus_mesh* mesh, char digits[MENISCUS_SHA256_SIZE]);
+/* The identity of the geometry as a sum over its bricks, the command line's bricks_sha256: where several programs have
+ * some bricks each, theirs add up to it, modulo 2^256, as numbers of 64 hexadecimal digits. Since 0.2. */
+MENISCUS_API meniscus_result meniscus_mesh_bricks_sha256(const meniscus_mesh* mesh, char digits[MENISCUS_SHA256_SIZE]);
 
 /* ---- Figures ---------------------------------------------------------------------------------------------------- */
 
@@ -197,6 +200,13 @@ MENISCUS_API meniscus_result meniscus_reconstructor_statistics(const meniscus_re
                                                                meniscus_statistics* statistics);
 
 /* ---- Through a server ------------------------------------------------------------------------------------------- */
+
+/* A library that was built without the service starts a program that has it for each session, `meniscus push`: the one
+ * that MENISCUS_PROGRAM names, or else `meniscus` in PATH, which meniscus_client_connect() looks for; the server is
+ * asked when the session is opened. Frames then have index, time and figures, but no mesh. What else is not to be had
+ * through that program returns MENISCUS_UNIMPLEMENTED, with a sentence: watchers, meniscus_client_delete_session(),
+ * meniscus_session_leave(), meniscus_session_try_push(), meniscus_frame_mesh(), and the options timeout, route-check
+ * and ephemeral set to false. Options about meshes change nothing there. */
 
 /* A connection to one meniscusd; any thread may use it at any time. Sessions and watchers outlive it. */
 typedef struct meniscus_client meniscus_client;

@@ -85,12 +85,14 @@ py::bytes png(const MeshHandle& handle, const py::object& width, const py::objec
     return bytes;
 }
 
-std::string sha256(const MeshHandle& handle) {
+/// digits: of a mesh, such as mesh_sha256.
+template <std::string (*digits)(const Mesh&)>
+std::string hash_of(const MeshHandle& handle) {
     require_own_process();
     rest_at_end();
     const Computation computation;
     std::string hash;
-    without_lock([&] { hash = mesh_sha256(*handle.mesh); });
+    without_lock([&] { hash = digits(*handle.mesh); });
     return hash;
 }
 
@@ -138,7 +140,8 @@ void bind_mesh(py::module_& module) {
         .def("volume", [](const MeshHandle& handle) { return measured(handle, &volume_of); })
         .def("png", &png, py::arg("width"), py::arg("height"), py::arg("color"), py::arg("up"), py::arg("wireframe"))
         .def("state", &state_of)
-        .def("sha256", &sha256)
+        .def("sha256", &hash_of<mesh_sha256>)
+        .def("bricks_sha256", &hash_of<bricks_sha256>)
         .def("save", &save, py::arg("path"));
     module.def("restore_mesh", &mesh_of_state, py::arg("state"));
 }

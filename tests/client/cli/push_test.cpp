@@ -1,0 +1,181 @@
+// meniscus push: frames through a pipe are those of an upload, and what is wrong with them is said.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "../../../client/c/absent/frame_bytes.hpp"
+#include "daemon/server.hpp"
+#include "formats/bytes/atomic_file.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "meniscus/client/client.hpp"
+#include "meniscus/mesh_hash.hpp"
+#include "process.hpp"
+#include "sample_files.hpp"
+
+namespace meniscus::test {
+namespace {
+
+/// A block of particles with speeds and ids.
+struct Block {
+    explicit Block(unsigned side, float phase = 0.0F) {
+        for (unsigned i = 0; i < side * side * side; ++i) {
+            const unsigned place[3] = {i % side, i / side % side, i / (side * side)};
+            for (const unsigned x : place) positions.push_back(0.2F * static_cast<float>(x) + phase);
+            speed.push_back(static_cast<float>(i % 7));
+            id.push_back(1000 + i);
+        }
+        arrays = {{"speed", std::as_bytes(std::span(speed)), ElementType::float32, 1},
+                  {"id", std::as_bytes(std::span(id)), ElementType::uint32, 1}};
+    }
+    Block(const Block&) = delete;
+    Block& operator=(const Block&) = delete;
+
+    ParticleFrame frame() const {
+        ParticleFrame out;
+        out.positions = positions;
+        out.arrays = arrays;
+        return out;
+    }
+
+    std::vector<float> positions;
+    std::vector<float> speed;
+    std::vector<std::uint32_t> id;
+    std::vector<ParticleArray> arrays;
+};
+
+std::string bytes_of(const Block& block, std::uint64_t index) {
+    std::string out;
+    for (const c::FramePiece& piece : c::frame_pieces(block.frame(), index, 0.5 * static_cast<double>(index)))
+        out.append(piece.head).append(reinterpret_cast<const char*>(piece.data.data()), piece.data.size());
+    return out;
+}
+
+class Push : public testing::Test {
+protected:
+    Push() { settings_.particle_radius = 0.1; }
+
+    ProcessResult push(const std::string& bytes, std::vector<std::string> more = {}) {
+        formats::write_file(directory_ / "recording", bytes);
+        more.insert(more.begin(), {"push", "-", "--server", server_.address(), "--answers", "-"});
+        return run_process(MENISCUS_CLI, more, {.in = (directory_ / "recording").string()});
+    }
+    static std::vector<nlohmann::json> lines_of(const ProcessResult& result) {
+        std::vector<nlohmann::json> lines;
+        for (std::size_t at = 0, end = 0; (end = result.out.find('\n', at)) != std::string::npos; at = end + 1)
+            lines.push_back(nlohmann::json::parse(result.out.substr(at, end - at)));
+        return lines;
+    }
+
+    TemporaryDirectory directory_;
+    server::ServerOptions options() const {
+        server::ServerOptions options;
+        options.listen = "unix:" + (directory_ / "socket").string();
+        options.backend.threads = 1;
+        return options;
+    }
+    server::Server server_{options()};
+    client::Client client_{server_.address()};
+    Settings settings_;
+};
+
+TEST_F(Push, GivesTheMeshesAndAttributesOfTheSameFramesUploaded) {
+    settings_.attributes = {"id", "speed"};
+    for (const unsigned side : {2U, 5U, 50U}) {  // the last one is more than a chunk
+        const Block block(side);
+        const std::string uploaded = client::new_session_id();
+        client_.create_session(uploaded, settings_);
+        client::Stream stream = client_.stream(uploaded);
+        stream.push(block.frame(), 7, 3.5);
+        stream.finish();
+        while (stream.next()) {
+        }
+        const std::string pushed = client::new_session_id();
+        client_.create_session(pushed, settings_);
+        const ProcessResult result =
+            push(c::recording_beginning() + bytes_of(block, 7),
+                 {"--session", pushed, "-r", "0.1", "--attribute", "id", "--attribute", "speed"});
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        const client::SnapshotOptions all{.attributes = {{.name = {}, .bits = 0}}};
+        const client::ReceivedFrame there = client_.snapshot(uploaded, all).value();
+        const client::ReceivedFrame here = client_.snapshot(pushed, all).value();
+        EXPECT_EQ(here.index, 7U);
+        EXPECT_EQ(here.simulation_time, 3.5);
+        EXPECT_EQ(mesh_sha256(here.mesh()), mesh_sha256(there.mesh()));
+        ASSERT_EQ(here.mesh().attributes.size(), 2U);
+        for (std::size_t a = 0; a < 2; ++a) EXPECT_EQ(here.mesh().attributes[a].data, there.mesh().attributes[a].data);
+        client_.delete_session(uploaded);
+        client_.delete_session(pushed);
+    }
+}
+
+TEST_F(Push, AnswersEachFrameByALineOfJson) {
+    const ProcessResult result =
+        push(c::recording_beginning() + bytes_of(Block(3), 2) + bytes_of(Block(4), 9), {"-r", "0.1", "-q"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    const auto lines = lines_of(result);
+    ASSERT_EQ(lines.size(), 4U) << result.out;
+    EXPECT_EQ(lines[0].at("session").get<std::string>().size(), 36U);
+    EXPECT_EQ(lines[1].at("frame"), 2);
+    EXPECT_EQ(lines[1].at("particles"), 27);
+    EXPECT_EQ(lines[2].at("frame"), 9);
+    EXPECT_EQ(lines[2].at("simulation_time"), 4.5);
+    EXPECT_GT(lines[2].at("triangles"), 0);
+    EXPECT_EQ(lines[3], nlohmann::json({{"ended", true}, {"dropped", 0}}));
+}
+
+TEST_F(Push, AnswersTheFramesBeforeABrokenOneAndThenSaysWhatIsWrong) {
+    const std::string whole = c::recording_beginning() + bytes_of(Block(3), 0) + bytes_of(Block(3), 1);
+    const std::string cut = whole + bytes_of(Block(3), 2).substr(0, 100);
+    const ProcessResult result = push(cut, {"-r", "0.1", "-q"});
+    EXPECT_EQ(result.exit_code, 2);
+    const auto lines = lines_of(result);
+    ASSERT_EQ(lines.size(), 4U) << result.out;
+    EXPECT_EQ(lines[2].at("frame"), 1);
+    const std::string said = "standard input: it ends at byte " + std::to_string(cut.size()) +
+                             ", within frame 2: whatever writes it ended early";
+    EXPECT_EQ(lines[3].at("error"), said);
+    EXPECT_EQ(lines[3].at("code"), "invalid_input");
+    EXPECT_EQ(result.err, "meniscus: " + said + "\n");
+}
+
+TEST_F(Push, TakesSettingsFromTheFlagsOrFromTheRecordingAndNeverFromBoth) {
+    const std::string bytes = c::recording_beginning() + bytes_of(Block(2), 0);
+    const ProcessResult none = push(bytes);
+    EXPECT_EQ(none.exit_code, 2);
+    EXPECT_NE(none.err.find("its beginning has no settings: give --particle-radius"), std::string::npos) << none.err;
+    const ProcessResult half = push(bytes, {"--cell-size", "1"});
+    EXPECT_EQ(half.exit_code, 2);
+    EXPECT_NE(half.err.find("give --particle-radius, too"), std::string::npos) << half.err;
+}
+
+TEST_F(Push, EndsWithItsSessionThoughItsPipeGoesOn) {
+    const std::string pipe = (directory_ / "pipe").string();
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const int both = ::open(pipe.c_str(), O_RDWR | O_CLOEXEC);
+    const std::string bytes = c::recording_beginning() + bytes_of(Block(2), 0);
+    ASSERT_EQ(::write(both, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+    const std::string id = client::new_session_id();
+    client_.create_session(id, settings_);
+    std::thread ending([&] {
+        client::Watcher watcher = client_.watch(id);
+        EXPECT_TRUE(watcher.next());
+        client_.delete_session(id);
+    });
+    const ProcessResult result = run_process(MENISCUS_CLI, {"push", pipe, "--server", server_.address(), "--session",
+                                                            id, "-r", "0.1", "--reconnect", "0", "-q"});
+    ending.join();
+    ::close(both);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("meniscus: "), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace meniscus::test
