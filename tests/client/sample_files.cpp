@@ -231,7 +231,7 @@ std::vector<Sample> samples() {
     out.push_back({"mesh obj", formats::read_file(directory / "mesh.obj"), particles(formats::read_obj)});
     add_written_files(out, directory);
     add_files_of_others(out);
-    client::ReceivedFrame frame = formats::encode_frame(tetrahedron(), {}, 4, 0.5);
+    client::ReceivedFrame frame = client::encode_frame(tetrahedron(), {}, 4, 0.5);
     frame.bricks = {std::make_shared<const EncodedBrick>(
         EncodedBrick{{1, -2, 3}, 4, 4, {std::byte{1}}, std::vector<std::byte>(30, std::byte{9})})};
     frame.statistics.triangles = 4;

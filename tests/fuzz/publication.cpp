@@ -39,8 +39,8 @@ client::SegmentBuilder::Built two_frames() {
         ParticleFrame frame;
         frame.positions = positions;
         reconstructor.reconstruct(frame, mesh);
-        builder.add(formats::encode_frame(mesh, reconstructor.statistics(), x > 0 ? 1 : 0, 0.0,
-                                          {.codec = Codec::lattice_packed}),
+        builder.add(client::encode_frame(mesh, reconstructor.statistics(), x > 0 ? 1 : 0, 0.0,
+                                         {.codec = Codec::lattice_packed}),
                     0.04);
     }
     return builder.build();

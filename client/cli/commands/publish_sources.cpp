@@ -91,7 +91,7 @@ public:
                                    .position_bits = form_.position_bits.value_or(0),
                                    .codec = codec_,
                                    .attributes = coded_attributes(mesh_, attribute_ranges(mesh_), form_.attributes)};
-        return formats::encode_frame(mesh_, statistics, index, time, coding);
+        return client::encode_frame(mesh_, statistics, index, time, coding);
     }
 
 private:

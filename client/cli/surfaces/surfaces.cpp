@@ -51,7 +51,7 @@ std::span<const Point> Surface::spray() const {
 
 const client::ReceivedFrame& Surface::encoded() const {
     if (received_ != nullptr) return *received_;
-    if (!encoded_) encoded_ = formats::encode_frame(*mesh_, statistics_, index_, simulation_time_, coding_);
+    if (!encoded_) encoded_ = client::encode_frame(*mesh_, statistics_, index_, simulation_time_, coding_);
     return *encoded_;
 }
 

@@ -18,9 +18,4 @@ client::ReceivedFrame read_bricks(const std::string& name, std::string_view byte
     ByteCursor(name, bytes).fail(std::string("this build reads no .bricks: ") + remedy);
 }
 
-client::ReceivedFrame encode_frame(const Mesh& /*mesh*/, const Statistics& /*statistics*/, std::uint64_t /*index*/,
-                                   double /*simulation_time*/, CodingOptions /*options*/) {
-    throw NotBuilt("writing .bricks", std::string("the service: ") + remedy);
-}
-
 }  // namespace meniscus::formats

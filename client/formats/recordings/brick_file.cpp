@@ -3,7 +3,6 @@
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/util/delimited_message_util.h>
 
-#include <chrono>
 #include <limits>
 #include <utility>
 
@@ -75,17 +74,6 @@ client::ReceivedFrame read_frame(const ByteCursor& in, Messages& messages) {
     in.fail("not a file of bricks");
 }
 
-std::vector<client::FrameAttribute> attributes_of(const Mesh& mesh) {
-    const std::vector<AttributeRange> ranges = attribute_ranges(mesh);
-    std::vector<client::FrameAttribute> attributes;
-    for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
-        const MeshAttribute& attribute = mesh.attributes[a];
-        attributes.push_back({attribute.name, attribute.type, attribute.components, {}});
-        if (!ranges.empty()) attributes.back().range = ranges[a];
-    }
-    return attributes;
-}
-
 }  // namespace
 
 void write_bricks(const std::filesystem::path& path, const client::ReceivedFrame& frame) {
@@ -121,28 +109,6 @@ client::ReceivedFrame read_brick_messages(const std::string& name, std::string_v
     const ByteCursor in(name, bytes);
     Messages messages(in, bytes);
     return read_frame(in, messages);
-}
-
-client::ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistics, std::uint64_t index,
-                                   double simulation_time, CodingOptions options) {
-    const auto start = std::chrono::steady_clock::now();
-    client::ReceivedFrame frame;
-    if (mesh.lattice.bricks.empty()) options.codec = Codec::draco;
-    frame.index = index;
-    frame.simulation_time = simulation_time;
-    frame.cell_size = mesh.cell_size;
-    frame.offset_bits = encoded_offset_bits(mesh, options);
-    frame.spray.assign(mesh.spray.begin(), mesh.spray.end());
-    frame.attributes = attributes_of(mesh);
-    frame.coded_attributes = options.attributes;
-    static_cast<Statistics&>(frame.statistics) = statistics;
-    for (std::size_t i = 0; i < mesh.bricks.size(); ++i) {
-        const auto brick = std::make_shared<const EncodedBrick>(encode_brick(mesh, i, options));
-        frame.statistics.encoded_bytes += brick->data.size() + brick->cell_levels.size();
-        frame.bricks.push_back(brick);
-    }
-    frame.statistics.encode_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return frame;
 }
 
 }  // namespace meniscus::formats

@@ -19,9 +19,4 @@ client::ReceivedFrame read_bricks(const std::string& name, std::string_view byte
 /// does.
 client::ReceivedFrame read_brick_messages(const std::string& name, std::string_view bytes);
 
-/// A mesh reconstructed here, encoded as a server would: with Draco where the codec needs a lattice that the mesh
-/// lacks.
-client::ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistics, std::uint64_t index,
-                                   double simulation_time, CodingOptions options = {});
-
 }  // namespace meniscus::formats

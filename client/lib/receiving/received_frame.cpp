@@ -1,9 +1,26 @@
+#include <chrono>
+#include <utility>
 #include <vector>
 
 #include "meniscus/client/client.hpp"
 #include "meniscus/mesh_normals.hpp"
 
 namespace meniscus::client {
+
+namespace {
+
+std::vector<FrameAttribute> attributes_of(const Mesh& mesh) {
+    const std::vector<AttributeRange> ranges = attribute_ranges(mesh);
+    std::vector<FrameAttribute> attributes;
+    for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
+        const MeshAttribute& attribute = mesh.attributes[a];
+        attributes.push_back({attribute.name, attribute.type, attribute.components, {}});
+        if (!ranges.empty()) attributes.back().range = ranges[a];
+    }
+    return attributes;
+}
+
+}  // namespace
 
 Mesh ReceivedFrame::mesh() const {
     std::vector<DecodedBrick> decoded;
@@ -16,6 +33,28 @@ Mesh ReceivedFrame::mesh() const {
             mesh.attributes.push_back({attribute.name, attribute.type, attribute.components, {}});
     mesh.spray.assign(spray.begin(), spray.end());
     return mesh;
+}
+
+ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistics, std::uint64_t index, double simulation_time,
+                           CodingOptions options) {
+    const auto start = std::chrono::steady_clock::now();
+    ReceivedFrame frame;
+    if (mesh.lattice.bricks.empty()) options.codec = Codec::draco;
+    frame.index = index;
+    frame.simulation_time = simulation_time;
+    frame.cell_size = mesh.cell_size;
+    frame.offset_bits = encoded_offset_bits(mesh, options);
+    frame.spray.assign(mesh.spray.begin(), mesh.spray.end());
+    frame.attributes = attributes_of(mesh);
+    frame.coded_attributes = options.attributes;
+    static_cast<Statistics&>(frame.statistics) = statistics;
+    for (std::size_t i = 0; i < mesh.bricks.size(); ++i) {
+        const auto brick = std::make_shared<const EncodedBrick>(encode_brick(mesh, i, options));
+        frame.statistics.encoded_bytes += brick->data.size() + brick->cell_levels.size();
+        frame.bricks.push_back(brick);
+    }
+    frame.statistics.encode_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return frame;
 }
 
 }  // namespace meniscus::client

@@ -312,7 +312,7 @@ TEST(BrickFile, HasTheAttributesOfItsMesh) {
     const AttributeWish exactly{"speed", 0};
     CodingOptions options;
     options.attributes = coded_attributes(mesh, attribute_ranges(mesh), {&exactly, 1});
-    formats::write_bricks(directory / "f.bricks", formats::encode_frame(mesh, {}, 1, 0.0, options));
+    formats::write_bricks(directory / "f.bricks", client::encode_frame(mesh, {}, 1, 0.0, options));
     const auto back = formats::read_bricks("f", formats::read_file(directory / "f.bricks"));
     ASSERT_EQ(back.attributes.size(), 1U);
     EXPECT_EQ(back.attributes[0].range->maximum[0], 8.25);

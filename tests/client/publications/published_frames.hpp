@@ -38,7 +38,7 @@ public:
         particles.arrays = arrays;
         reconstructor_.reconstruct(particles, mesh_);
         const std::vector<AttributeWish> wishes{{.name = {}, .bits = 8}};
-        client::ReceivedFrame frame = formats::encode_frame(
+        client::ReceivedFrame frame = client::encode_frame(
             mesh_, reconstructor_.statistics(), index, 0.1 * static_cast<double>(index),
             {.codec = codec, .attributes = coded_attributes(mesh_, attribute_ranges(mesh_), wishes)});
         frame.run_id = run_id;

@@ -101,7 +101,7 @@ client::ReceivedFrame encoded(const Mesh& mesh, const Statistics& statistics) {
     CodingOptions coding;
     const std::vector<AttributeWish> exact{{.name = {}, .bits = 0}};
     coding.attributes = coded_attributes(mesh, attribute_ranges(mesh), exact);
-    return formats::encode_frame(mesh, statistics, 0, 0.0, coding);
+    return client::encode_frame(mesh, statistics, 0, 0.0, coding);
 }
 
 void write_bricks(const std::filesystem::path& path, const MeshHandle& handle) {

@@ -148,7 +148,7 @@ void add_mesh(const Writer& writer, const MeshHandle& mesh, std::uint64_t index,
         const std::vector<AttributeWish> all{{.name = {}, .bits = default_attribute_bits}};
         options.attributes = coded_attributes(*mesh.mesh, attribute_ranges(*mesh.mesh), all);
         const auto* const statistics = std::get_if<Statistics>(&mesh.origin);
-        writer->add(formats::encode_frame(*mesh.mesh, statistics ? *statistics : Statistics{}, index, time, options),
+        writer->add(client::encode_frame(*mesh.mesh, statistics ? *statistics : Statistics{}, index, time, options),
                     seconds);
     });
 }

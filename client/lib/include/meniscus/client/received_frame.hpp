@@ -66,4 +66,9 @@ struct ReceivedFrame {
     Mesh mesh() const;
 };
 
+/// A surface that was reconstructed here, encoded as a server would: with Draco where the codec needs a lattice that
+/// the mesh lacks (BackendOptions::keep_lattice). Its bricks carry options.attributes alone.
+ReceivedFrame encode_frame(const Mesh& mesh, const Statistics& statistics, std::uint64_t index, double simulation_time,
+                           CodingOptions options = {});
+
 }  // namespace meniscus::client
