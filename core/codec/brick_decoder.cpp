@@ -19,8 +19,16 @@ void refuse(const EncodedBrick& brick, const std::string& what) {
 
 namespace {
 
-/// The origin of a brick on the refined lattice; refuses one that int32 cannot hold.
+void require_offset_bits(std::uint32_t offset_bits) {
+    if (offset_bits < min_offset_bits || offset_bits > max_offset_bits)
+        throw InvalidInput("the mesh has " + std::to_string(offset_bits) + " offset bits, must have " +
+                           std::to_string(min_offset_bits) + " to " + std::to_string(max_offset_bits));
+}
+
+}  // namespace
+
 LatticePosition brick_origin(const EncodedBrick& brick, std::uint32_t offset_bits) {
+    require_offset_bits(offset_bits);
     const std::int64_t edge = std::int64_t{brick_cells} << offset_bits;
     LatticePosition origin;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -32,11 +40,7 @@ LatticePosition brick_origin(const EncodedBrick& brick, std::uint32_t offset_bit
     return origin;
 }
 
-void require_offset_bits(std::uint32_t offset_bits) {
-    if (offset_bits < min_offset_bits || offset_bits > max_offset_bits)
-        throw InvalidInput("the mesh has " + std::to_string(offset_bits) + " offset bits, must have " +
-                           std::to_string(min_offset_bits) + " to " + std::to_string(max_offset_bits));
-}
+namespace {
 
 DecodedBrick decode_lattice_brick(const EncodedBrick& brick, const LatticePosition& origin, std::uint32_t offset_bits,
                                   std::span<const CodedAttribute> attributes) {
@@ -52,7 +56,6 @@ DecodedBrick decode_lattice_brick(const EncodedBrick& brick, const LatticePositi
 
 DecodedBrick decode_brick(const EncodedBrick& brick, std::uint32_t offset_bits,
                           std::span<const CodedAttribute> attributes) {
-    require_offset_bits(offset_bits);
     for (const CodedAttribute& form : attributes) require_codable(form);
     const LatticePosition origin = brick_origin(brick, offset_bits);
     switch (brick.codec) {

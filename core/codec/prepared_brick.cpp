@@ -4,6 +4,7 @@
 
 #include "codec/coded_bits.hpp"
 #include "codec/lattice/lattice_coder.hpp"
+#include "codec/scratch_charge.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/packed_bricks.hpp"
@@ -26,25 +27,15 @@ PreparedBrick::PreparedBrick(const Mesh& mesh, std::size_t brick, const CodingOp
                            ", but the mesh has no lattice: reconstruct it with keep_lattice, or use Draco");
     check_normal_bits(options.normal_bits);
     scratch_ = &scratch;
-    charge(0);
+    charge_for(0, scratch);
     if (!scratch.lattice) scratch.lattice = make_lattice_coder();
     guarded([&](LatticeCoder& coder) { coder.load(mesh, brick, options); });
-    charge(scratch.lattice->vertices());
+    charge_for(scratch.lattice->vertices(), scratch);
 }
 
 PreparedBrick::PreparedBrick(PackedBricks& packed, std::size_t brick, const CodingOptions& options,
                              BrickScratch& scratch)
     : options_(options), scratch_(&scratch), packed_(&packed), brick_(brick) {}
-
-void PreparedBrick::charge(std::size_t vertices) const {
-    constexpr std::size_t coder_bytes = std::size_t{3} << 20;
-    constexpr std::size_t bytes_a_vertex = 128;
-    const std::size_t bytes = coder_bytes + bytes_a_vertex * vertices;
-    Array<std::byte>& charged = scratch_->charge;
-    if (charged.capacity() >= bytes) return;
-    charged = Array<std::byte>(charged.get_allocator());  // gives the smaller one back first
-    charged.reserve(bytes);
-}
 
 template <class Work>
 void PreparedBrick::guarded(const Work& work) const {
@@ -67,7 +58,7 @@ EncodedBrick PreparedBrick::encode() const {
     if (packed_ != nullptr) {
         encoded = packed_->bring(brick_);
         if (options_.codec == encoded.codec) return encoded;
-        charge(encoded.vertices);
+        charge_for(encoded.vertices, *scratch_);
         if (!scratch_->lattice) scratch_->lattice = make_lattice_coder();
         guarded([&](LatticeCoder& coder) { coder.load(encoded, options_); });
     }

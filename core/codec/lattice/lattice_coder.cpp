@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "codec/attribute_values.hpp"
+#include "codec/coded_bits.hpp"
 #include "codec/content_hash.hpp"
 #include "codec/lattice/brick_header.hpp"
 #include "codec/lattice/brick_mesh.hpp"
@@ -78,23 +80,38 @@ public:
         return hasher.hash();
     }
 
-    EncodedBrick encode(Codec codec) override {
-        EncodedBrick encoded;
-        encoded.coordinate = coordinate_;
-        encoded.codec = codec;
-        encoded.vertices = static_cast<std::uint32_t>(brick_.offsets.size());
-        encoded.triangles = triangles_;
-        if (codec == Codec::lattice_packed) {
-            write_packed(brick_, bits_, encoded.data);
-        } else {
-            if (brick_.normal_bits != 0) make_mesh(brick_, {}, triangles_);
-            entropy_.write(brick_, encoded.data);
-        }
-        return encoded;
-    }
+    EncodedBrick encode(Codec codec) override { return write(brick_, coordinate_, triangles_, codec); }
 
     DecodedBrick decode(const EncodedBrick& encoded, const LatticePosition& origin, std::uint32_t offset_bits,
                         std::span<const CodedAttribute> attributes) override {
+        DecodedBrick decoded = mesh_of(read(encoded, origin, offset_bits, attributes), encoded.coordinate);
+        for (std::size_t a = 0; a < attributes.size(); ++a)
+            decoded.attributes.push_back(decoded_values(attributes[a], decoder_->brick().attributes[a]));
+        return decoded;
+    }
+
+    EncodedBrick recode(const EncodedBrick& encoded, std::uint32_t offset_bits,
+                        std::span<const CodedAttribute> attributes, const CodingOptions& options) override {
+        LatticeBrick& brick = read(encoded, {}, offset_bits, attributes);
+        if (encoded.codec == Codec::lattice_entropy) find_middles(brick.lattice);
+        round_normals(brick, options.normal_bits);
+        round_offsets(brick, options.position_bits);
+        recode_attributes(brick, attributes, options.attributes);
+        if (options.codec != Codec::draco) return write(brick, encoded.coordinate, encoded.triangles, options.codec);
+        LatticePosition origin;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            origin[axis] = encoded.coordinate[axis] * (brick_cells << brick.offset_bits);
+        make_mesh(brick, origin, encoded.triangles);
+        DecodedBrick decoded = mesh_of(brick, encoded.coordinate);
+        for (std::size_t a = 0; a < options.attributes.size(); ++a)
+            decoded.attributes.push_back(decoded_values(options.attributes[a], brick.attributes[a]));
+        return encode_brick(decoded, static_cast<std::uint32_t>(brick.offset_bits), options);
+    }
+
+private:
+    /// The brick with its mesh. Throws InvalidInput for bytes that are none.
+    LatticeBrick& read(const EncodedBrick& encoded, const LatticePosition& origin, std::uint32_t offset_bits,
+                       std::span<const CodedAttribute> attributes) {
         const std::vector<std::size_t> attribute_bytes = coded_bytes(attributes);
         const auto header = BrickHeader::read(encoded.data);
         if (header && header->has_entropy != (encoded.codec == Codec::lattice_entropy))
@@ -109,25 +126,90 @@ public:
                                                    origin);
         if (fault != nullptr) throw InvalidInput(fault);
         LatticeBrick& brick = decoder_->brick();
-        DecodedBrick decoded;
-        decoded.coordinate = encoded.coordinate;
-        decoded.vertices = std::move(brick.positions);
-        decoded.triangles = std::move(brick.triangles);
-        decoded.levels = std::move(brick.levels);
-        if (brick.normal_bits != 0) {
-            const Octahedron octahedron(brick.normal_bits);
-            decoded.normals.reserve(brick.normals.size());
-            for (const std::uint32_t code : brick.normals) {
-                if (!octahedron.holds(code)) throw InvalidInput("has a normal that is none");
-                decoded.normals.push_back(octahedron.vector(code));
-            }
-        }
-        for (std::size_t a = 0; a < attributes.size(); ++a)
-            decoded.attributes.push_back(decoded_values(attributes[a], brick.attributes[a]));
-        return decoded;
+        if (brick.normal_bits == 0) return brick;
+        const Octahedron octahedron(brick.normal_bits);
+        for (const std::uint32_t code : brick.normals)
+            if (!octahedron.holds(code)) throw InvalidInput("has a normal that is none");
+        return brick;
     }
-
-private:
+    /// Takes the mesh of a brick that was read, without attributes.
+    static DecodedBrick mesh_of(LatticeBrick& brick, const std::array<std::int32_t, 3>& coordinate) {
+        DecodedBrick mesh;
+        mesh.coordinate = coordinate;
+        mesh.vertices = std::move(brick.positions);
+        mesh.triangles = std::move(brick.triangles);
+        mesh.levels = std::move(brick.levels);
+        if (brick.normal_bits == 0) return mesh;
+        const Octahedron octahedron(brick.normal_bits);
+        mesh.normals.reserve(brick.normals.size());
+        for (const std::uint32_t code : brick.normals) mesh.normals.push_back(octahedron.vector(code));
+        return mesh;
+    }
+    /// Of bricks of the entropy profile the edges are known, and the signs of their middles: not which points these
+    /// are, which the packed profile asks.
+    static void find_middles(BrickLattice& lattice) {
+        std::vector<BlockMask> known;
+        for (const std::uint16_t place : lattice.blocks()) {
+            known.push_back(lattice.inside[place]);
+            lattice.inside[place] &= lattice.corners[place];
+            lattice.edges[place] = {};
+        }
+        for (std::size_t i = 0; i < known.size(); ++i)
+            lattice.find_edges(lattice.blocks()[i], [&](BlockMask middles) { return known[i] & middles; });
+    }
+    static void round_normals(LatticeBrick& brick, int bits) {
+        if (brick.normal_bits == 0 || bits == brick.normal_bits) return;
+        check_normal_bits(bits);
+        if (bits == 0) {
+            brick.normals.clear();
+        } else {
+            const Octahedron from(brick.normal_bits);
+            const Octahedron to(bits);
+            for (std::uint32_t& code : brick.normals) code = to.code(to.point(from.vector(code)));
+        }
+        brick.normal_bits = bits;
+    }
+    /// bits: 0 for those that it has.
+    static void round_offsets(LatticeBrick& brick, int bits) {
+        if (bits == 0 || bits == brick.offset_bits) return;
+        if (bits < static_cast<int>(min_offset_bits) || bits > brick.offset_bits)
+            throw InvalidInput("is to be encoded with " + std::to_string(bits) + " position bits, must be " +
+                               std::to_string(min_offset_bits) + " to its " + std::to_string(brick.offset_bits));
+        for (std::uint8_t& offset : brick.offsets)
+            offset = static_cast<std::uint8_t>(round_position(offset, static_cast<std::uint32_t>(brick.offset_bits),
+                                                              static_cast<std::uint32_t>(bits)));
+        brick.offset_bits = bits;
+    }
+    /// from: the attributes that the brick has; to: some of them, in forms of their own.
+    static void recode_attributes(LatticeBrick& brick, std::span<const CodedAttribute> from,
+                                  std::span<const CodedAttribute> to) {
+        std::vector<std::uint32_t> all(brick.offsets.size());
+        std::iota(all.begin(), all.end(), 0U);
+        std::vector<std::vector<std::byte>> recoded;
+        for (const CodedAttribute& form : to) {
+            const auto found = std::ranges::find(from, form.name, &CodedAttribute::name);
+            if (found == from.end()) throw InvalidInput("has no attribute '" + form.name + "'");
+            std::vector<std::byte>& coded = brick.attributes[static_cast<std::size_t>(found - from.begin())];
+            recoded.push_back(*found == form ? std::move(coded)
+                                             : coded_values(decoded_values(*found, coded), form, all));
+        }
+        brick.attributes = std::move(recoded);
+    }
+    EncodedBrick write(LatticeBrick& brick, const std::array<std::int32_t, 3>& coordinate, std::uint32_t triangles,
+                       Codec codec) {
+        EncodedBrick encoded;
+        encoded.coordinate = coordinate;
+        encoded.codec = codec;
+        encoded.vertices = static_cast<std::uint32_t>(brick.offsets.size());
+        encoded.triangles = triangles;
+        if (codec == Codec::lattice_packed) {
+            write_packed(brick, bits_, encoded.data);
+        } else {
+            if (brick.normal_bits != 0) make_mesh(brick, {}, triangles);
+            entropy_.write(brick, encoded.data);
+        }
+        return encoded;
+    }
     static std::vector<std::size_t> coded_bytes(std::span<const CodedAttribute> attributes) {
         std::vector<std::size_t> bytes;
         for (const CodedAttribute& form : attributes) bytes.push_back(form.coded_bytes());

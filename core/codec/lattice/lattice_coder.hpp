@@ -28,6 +28,9 @@ public:
     /// See decode_brick().
     virtual DecodedBrick decode(const EncodedBrick& brick, const LatticePosition& origin, std::uint32_t offset_bits,
                                 std::span<const CodedAttribute> attributes) = 0;
+    /// See recode_brick().
+    virtual EncodedBrick recode(const EncodedBrick& brick, std::uint32_t offset_bits,
+                                std::span<const CodedAttribute> attributes, const CodingOptions& options) = 0;
 };
 
 /// With the loops of one instruction set, which the processor has.

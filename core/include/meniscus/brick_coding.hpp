@@ -100,8 +100,6 @@ public:
 
 private:
     const CodingOptions& options_;
-    /// Charges the scratch memory's account for a brick of a lattice codec.
-    void charge(std::size_t vertices) const;
     /// Drops the coder if the work with it throws.
     template <class Work>
     void guarded(const Work& work) const;
