@@ -64,9 +64,24 @@ struct PrometheusMetrics::Instruments {
                        {{"to", std::string(to)}});
     }
 
+    /// What any surface has, wherever it was made.
+    void count(const FrameStatistics& statistics) const {
+        frames.Increment();
+        particles.Increment(number(statistics.particles));
+        spray.Increment(number(statistics.spray_particles));
+        particle_volume.Increment(statistics.particle_volume);
+        triangles.Increment(number(statistics.triangles));
+        mesh_volume.Increment(statistics.volume);
+        mesh_bytes.Increment(number(statistics.encoded_bytes));
+        latency.Observe(statistics.latency_seconds);
+    }
+
     prometheus::Registry registry;
 
-    prometheus::Counter& frames = counter("meniscus_frames_total", "Frames reconstructed and answered.");
+    prometheus::Counter& frames =
+        counter("meniscus_frames_total", "Frames answered: reconstructed, or published as finished bricks.");
+    prometheus::Counter& surfaces =
+        counter("meniscus_surfaces_published_total", "Of those, frames of finished bricks.");
     prometheus::Counter& particles = counter("meniscus_particles_total", "Particles of those frames.");
     prometheus::Counter& spray =
         counter("meniscus_spray_particles_total", "Particles of those frames that are without company.");
@@ -75,8 +90,7 @@ struct PrometheusMetrics::Instruments {
     prometheus::Counter& triangles = counter("meniscus_triangles_total", "Triangles of their meshes.");
     prometheus::Counter& mesh_volume =
         counter("meniscus_mesh_volume_total", "Volume that those meshes enclose, world units cubed.");
-    prometheus::Counter& upload_bytes =
-        counter("meniscus_upload_bytes_total", "Particle bytes of frames received whole.");
+    prometheus::Counter& upload_bytes = counter("meniscus_upload_bytes_total", "Bytes of frames received whole.");
     prometheus::Counter& mesh_bytes =
         counter("meniscus_mesh_bytes_total", "Bytes of encoded bricks, each encoding counted once.");
     PerChoice<DropReason, prometheus::Counter> drops{[this](std::string_view name) { return &dropped(name); }};
@@ -127,19 +141,17 @@ void PrometheusMetrics::frame_dropped(DropReason reason) {
 }
 
 void PrometheusMetrics::frame_finished(const FrameStatistics& statistics) {
-    instruments_->frames.Increment();
-    instruments_->particles.Increment(number(statistics.particles));
-    instruments_->spray.Increment(number(statistics.spray_particles));
-    instruments_->particle_volume.Increment(statistics.particle_volume);
-    instruments_->triangles.Increment(number(statistics.triangles));
-    instruments_->mesh_volume.Increment(statistics.volume);
-    instruments_->mesh_bytes.Increment(number(statistics.encoded_bytes));
+    instruments_->count(statistics);
     for (const Stage stage : choices<Stage>)
         instruments_->stages[stage].Observe(statistics.stage_seconds[static_cast<std::size_t>(stage)]);
     instruments_->reconstruction.Observe(statistics.total_seconds);
     if (statistics.download_seconds != 0.0) instruments_->download.Observe(statistics.download_seconds);
     if (statistics.encoded_bytes != 0) instruments_->encode.Observe(statistics.encode_seconds);
-    instruments_->latency.Observe(statistics.latency_seconds);
+}
+
+void PrometheusMetrics::surface_finished(const FrameStatistics& statistics) {
+    instruments_->surfaces.Increment();
+    instruments_->count(statistics);
 }
 
 void PrometheusMetrics::message_sent(Receiver to, std::uint64_t bytes) {

@@ -18,6 +18,7 @@ public:
     void frame_received(std::uint64_t bytes) override;
     void frame_dropped(DropReason reason) override;
     void frame_finished(const FrameStatistics& statistics) override;
+    void surface_finished(const FrameStatistics& statistics) override;
     void message_sent(Receiver to, std::uint64_t bytes) override;
     void frame_skipped() override;
     void watcher_lag(double seconds) override;

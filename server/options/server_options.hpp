@@ -44,10 +44,12 @@ struct ServerOptions {
               {.help = "HOST:PORT (port 0: a free one, which is logged) or unix:PATH (for this user alone)",
                .argument = "HOST:PORT | unix:PATH"});
         TlsFiles::rows(self.tls, visit);
-        visit("tokens", self.tokens,
-              {.help = "Lines ROLE NAME TOKEN, the role being uploader, watcher or admin: calls need one of these "
-                       "tokens",
-               .argument = "FILE"});
+        visit(
+            "tokens", self.tokens,
+            {.help =
+                 "Lines ROLE NAME TOKEN, the role being uploader, publisher, watcher or admin: calls need one of these "
+                 "tokens",
+             .argument = "FILE"});
         visit("insecure", self.insecure, {.help = "Let other machines connect without TLS, also to --http"});
         visit("http", self.http,
               {.help = "HOST:PORT (port 0: a free one, which is logged) of the viewer, /metrics, /healthz and "
@@ -78,6 +80,8 @@ struct ServerOptions {
         visit("threads", self.backend.threads,
               {.help = "Worker threads; 0: one per processor", .range = {.most = max_threads}, .argument = "N"});
         Limits::rows(self.limits, visit);
+        visit("check_published", self.limits.check_published,
+              {.help = "Refuse surfaces that were made elsewhere (Publish) unless they are closed"});
         visit("shutdown_grace", self.shutdown_grace,
               {.help = "Seconds that clients get after SIGTERM to take the frames they are owed",
                .unit = "s",

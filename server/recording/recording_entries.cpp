@@ -103,9 +103,10 @@ RecordingBytes recorded_particles(const InputFrame& frame, std::int64_t arrived_
     // Not to grow while the particles are copied: 12 bytes at most before each chunk, and the messages around them.
     constexpr std::size_t before_a_chunk = 16;
     constexpr std::size_t around = 64;
-    bytes.messages.reserve(frame.bytes.size() +
-                           (frame.bytes.size() / chunk_bytes + arrays.size() + 1) * before_a_chunk +
-                           begin.ByteSizeLong() + around);
+    const bool is_finished = !frame.brick_parts.empty();
+    const std::size_t size = is_finished ? 0 : frame.bytes.size();
+    bytes.messages.reserve(size + (size / chunk_bytes + arrays.size() + 1) * before_a_chunk + begin.ByteSizeLong() +
+                           around);
     append_delimited(bytes.messages, begin);
     append_chunks(bytes.messages, std::span(frame.bytes).first(frame.particle_bytes()));
     for (const ParticleArray& array : arrays) append_chunks(bytes.messages, array.data);
@@ -119,6 +120,7 @@ RecordingBytes recorded_particles(const InputFrame& frame, std::int64_t arrived_
     particles.set_simulation_time(frame.simulation_time);
     particles.set_particle_count(frame.particle_count);
     particles.set_arrived_at(arrived_at);
+    particles.set_finished_bricks(is_finished);
     bytes.entry = entry_of(bytes.messages, std::move(entry));
     return bytes;
 }

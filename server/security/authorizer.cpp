@@ -31,6 +31,8 @@ std::string_view name_of(Action action) {
             return "CreateSession";
         case Action::stream:
             return "Stream";
+        case Action::publish:
+            return "Publish";
         case Action::delete_session:
             return "DeleteSession";
         case Action::delete_recording:
@@ -43,6 +45,21 @@ bool only_looks(Action action) {
     return action == Action::describe_server || action == Action::list_sessions || action == Action::get_session ||
            action == Action::watch || action == Action::snapshot || action == Action::list_recordings ||
            action == Action::read_recording;
+}
+
+/// Whether the role gives rights on the caller's own sessions alone.
+bool is_owner(Role role) {
+    return role == Role::uploader || role == Role::publisher;
+}
+
+void require_role(const Caller& caller, Action action) {
+    const auto refuse = [&](const char* needed) {
+        throw Refusal(Refusal::Kind::permission_denied,
+                      fmt::format("{} needs a token of the role {} or admin; that of {} has the role {}",
+                                  name_of(action), needed, caller.name, name_of(caller.role)));
+    };
+    if (action == Action::publish && caller.role != Role::publisher && caller.role != Role::admin) refuse("publisher");
+    if (caller.role == Role::watcher && !only_looks(action)) refuse("uploader");
 }
 
 std::string_view bearer_token(std::string_view authorization) {
@@ -80,10 +97,7 @@ Caller Authorizer::admit(std::span<const std::string_view> authorization, const 
                                   authorization.empty() ? "none" : std::to_string(authorization.size())));
     auto caller = tokens->find(bearer_token(authorization.front()));
     if (!caller) throw Refusal(Refusal::Kind::unauthenticated, "the token is none of this server's");
-    if (caller->role == Role::watcher && !only_looks(action))
-        throw Refusal(Refusal::Kind::permission_denied,
-                      fmt::format("{} needs a token of the role uploader or admin; that of {} has the role watcher",
-                                  name_of(action), caller->name));
+    require_role(*caller, action);
     return *std::move(caller);
 }
 
@@ -93,12 +107,11 @@ bool Authorizer::asks_for_tokens() const {
 }
 
 bool Authorizer::may_see(const Caller& caller, std::string_view owner) {
-    return caller.role != Role::uploader || caller.name == owner;
+    return !is_owner(caller.role) || caller.name == owner;
 }
 
 bool Authorizer::see_the_same(const Caller& a, const Caller& b) {
-    if (a.role != Role::uploader || b.role != Role::uploader)
-        return a.role != Role::uploader && b.role != Role::uploader;
+    if (!is_owner(a.role) || !is_owner(b.role)) return !is_owner(a.role) && !is_owner(b.role);
     return a.name == b.name;
 }
 

@@ -25,12 +25,14 @@ enum class Action {
     read_recording,
     create_session,
     stream,
+    publish,
     delete_session,
     delete_recording
 };
 
 /// A watcher describes the server, lists, describes and watches all sessions, lists and reads their recordings. An
-/// uploader does everything with sessions of its own, and sees no others. An admin does everything. Thread-safe.
+/// uploader does everything with sessions of its own but to publish surfaces, and sees no others; a publisher does
+/// that, too. An admin does everything. Thread-safe.
 class Authorizer {
 public:
     /// trusted: peers through which others come.

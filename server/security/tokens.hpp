@@ -11,11 +11,13 @@
 
 namespace meniscus::server {
 
-enum class Role { uploader, watcher, admin };
+enum class Role { uploader, publisher, watcher, admin };
 constexpr std::string_view name_of(Role role) {
     switch (role) {
         case Role::uploader:
             return "uploader";
+        case Role::publisher:
+            return "publisher";
         case Role::watcher:
             return "watcher";
         case Role::admin:

@@ -41,7 +41,9 @@ void print_server(const ServerFlags& server) {
     std::cout << "health                 " << (client.serving() ? "serving" : "shutting down") << '\n'
               << "threads                " << info.threads << '\n'
               << "codecs                 " << codec_names(info.codecs) << '\n'
-              << "publishes              " << (info.publishes ? "sessions that ask for it" : "nothing") << '\n';
+              << "publishes              " << (info.publishes ? "sessions that ask for it" : "nothing") << '\n'
+              << "checks of surfaces     "
+              << (info.checks_published ? "those made elsewhere are closed" : "of each brick") << '\n';
     std::string_view heading;
     for_each_row<client::ServerInfo>([&](const auto& row) {
         const auto value = *row.find(info);

@@ -67,6 +67,7 @@ private:
         frames.push_back({.index = particles.frame_index(),
                           .simulation_time = particles.simulation_time(),
                           .particle_count = particles.particle_count(),
+                          .finished_bricks = particles.finished_bricks(),
                           .arrived_at = arrived_at,
                           .particles = messages,
                           .mesh = std::nullopt});
@@ -116,6 +117,9 @@ bool Recording::is_whole(const RecordedFrame& frame) const {
 }
 
 RecordedParticles Recording::particles(const RecordedFrame& frame) const {
+    if (frame.finished_bricks)
+        file_.fail("frame " + std::to_string(frame.index) +
+                   " came as finished bricks: it has a mesh, which convert writes, and no particles");
     if (!files::is_whole(file_, frame.particles))
         file_.fail("particles of frame " + std::to_string(frame.index) +
                    ": they do not have their checksum: the file is damaged");

@@ -24,6 +24,7 @@ struct RecordedFrame {
     std::uint64_t index = 0;
     double simulation_time = 0.0;
     std::uint64_t particle_count = 0;
+    bool finished_bricks = false;  ///< in place of particles
     std::chrono::system_clock::time_point arrived_at;
     RecordedRange particles;
     std::optional<RecordedRange> mesh;

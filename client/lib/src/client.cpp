@@ -79,6 +79,7 @@ ServerInfo Client::server_info(const std::stop_token& stop) {
     });
     info.codecs.assign(response.codecs().begin(), response.codecs().end());
     info.publishes = response.publishes();
+    info.checks_published = response.checks_published();
     return info;
 }
 
@@ -116,6 +117,10 @@ Session Client::open_session(const Settings& settings, const OpenOptions& option
 
 Stream Client::stream(const std::string& session_id, const StreamOptions& options) {
     return Stream(Stream::Impl::open(impl_->connection(), session_id, options));
+}
+
+Publisher Client::publish(const std::string& session_id, const PublisherOptions& options) {
+    return {impl_->connection(), session_id, options};
 }
 
 Watcher Client::watch(const std::string& session_id, const WatchOptions& options) {

@@ -10,6 +10,7 @@
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/reconstructor.hpp"
+#include "meniscus/v1/surface_service.pb.h"
 #include "particle_buffer_memory.hpp"
 
 namespace meniscus::client {
@@ -22,13 +23,14 @@ PushedFrame begin_frame(const ParticleFrame& frame, std::span<const ParticleArra
     if (!std::isfinite(simulation_time))
         throw InvalidInput("frame " + std::to_string(index) + ": simulation_time is " +
                            std::to_string(simulation_time) + "; it must be finite");
-    PushedFrame pushed;
-    pushed.begin.set_frame_index(index);
-    pushed.begin.set_simulation_time(simulation_time);
-    pushed.begin.set_particle_count(frame.count());
-    *pushed.begin.mutable_arrays() = conversion::particle_arrays(frame.is_quantized(), !frame.levels.empty(), arrays);
-    if (frame.is_quantized()) *pushed.begin.mutable_quantization_box() = conversion::to_wire(frame.quantization_box);
-    return pushed;
+    v1::StreamRequest request;
+    v1::FrameBegin& begin = *request.mutable_frame_begin();
+    begin.set_frame_index(index);
+    begin.set_simulation_time(simulation_time);
+    begin.set_particle_count(frame.count());
+    *begin.mutable_arrays() = conversion::particle_arrays(frame.is_quantized(), !frame.levels.empty(), arrays);
+    if (frame.is_quantized()) *begin.mutable_quantization_box() = conversion::to_wire(frame.quantization_box);
+    return {.index = index, .begin = request.SerializeAsString(), .memory = nullptr, .parts = {}};
 }
 
 std::vector<ParticleArray> chosen_arrays(std::span<const ParticleArray> arrays, std::size_t particles,

@@ -5,19 +5,20 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "byte_pool.hpp"
 #include "meniscus/client/particle_buffer.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/strided_positions.hpp"
-#include "meniscus/v1/surface_service.pb.h"
 #include "named_arrays.hpp"
 
 namespace meniscus::client {
 
 struct PushedFrame {
-    v1::FrameBegin begin;
+    std::uint64_t index = 0;
+    std::string begin;                              ///< the request that begins it, serialized
     std::shared_ptr<const void> memory;             ///< of the parts; none once they will not be sent again
     std::vector<std::span<const std::byte>> parts;  ///< the frame's bytes, one part after the other
 };

@@ -93,8 +93,13 @@ SessionInfo Session::info(const std::stop_token& stop) {
 
 Stream Session::stream(const StreamOptions& options) {
     impl_->create_again(options.stop);
-    return Stream(
-        Stream::Impl::open(impl_->connection(), impl_->id(), options, impl_->made(), NamedArrays(impl_->settings())));
+    return Stream(Stream::Impl::open(impl_->connection(), impl_->id(), options, Stream::Impl::Uploads::particles,
+                                     impl_->made(), NamedArrays(impl_->settings())));
+}
+
+Publisher Session::publish(const PublisherOptions& options) {
+    impl_->create_again(options.stop);
+    return {impl_->connection(), impl_->id(), options, impl_->made()};
 }
 
 Watcher Session::watch(const WatchOptions& options) {

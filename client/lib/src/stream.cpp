@@ -1,17 +1,16 @@
 #include <algorithm>
-#include <random>
 #include <utility>
 
 #include "call_end.hpp"
 #include "codec_order.hpp"
 #include "connection/deadline.hpp"
-#include "conversion/attribute_conversion.hpp"
 #include "error_mapping.hpp"
 #include "meniscus/error.hpp"
 #include "receiving/frame_receiver.hpp"
 #include "session_look.hpp"
 #include "stream_impl.hpp"
 #include "unary_call.hpp"
+#include "upload_opening.hpp"
 
 namespace meniscus::client {
 
@@ -19,24 +18,6 @@ namespace {
 
 /// The time that a caller which leaves a stream waits for its threads. A canceled call ends within milliseconds.
 constexpr std::chrono::milliseconds patience_with_threads{300};
-
-std::uint64_t random_run_id() {
-    std::random_device device;
-    std::uniform_int_distribution<std::uint64_t> ids(1);
-    return ids(device);
-}
-
-v1::UploadPolicy to_wire(UploadPolicy policy) {
-    switch (policy) {
-        case UploadPolicy::every_frame:
-            return v1::UPLOAD_POLICY_EVERY_FRAME;
-        case UploadPolicy::latest:
-            return v1::UPLOAD_POLICY_LATEST;
-        case UploadPolicy::every_nth:
-            return v1::UPLOAD_POLICY_EVERY_NTH;
-    }
-    return v1::UPLOAD_POLICY_UNSPECIFIED;
-}
 
 DropReason from_wire(v1::DropReason reason) {
     switch (reason) {
@@ -53,22 +34,6 @@ DropReason from_wire(v1::DropReason reason) {
     }
     throw ServerError("the server dropped a frame for reason " + std::to_string(reason) +
                       ", which this version does not know");
-}
-
-v1::StreamOpen open_message(const std::string& session_id, const StreamOptions& options) {
-    v1::StreamOpen open;
-    open.set_session_id(session_id);
-    open.set_receive_meshes(options.receive_meshes);
-    open.set_normal_bits(static_cast<std::uint32_t>(asked_normal_bits(options.normals_by, options.normal_bits)));
-    open.set_policy(to_wire(options.policy));
-    open.set_nth(options.nth);
-    open.set_with_spray(options.spray);
-    *open.mutable_attributes() = conversion::to_wire(std::span(options.attributes));
-    open.set_reconnect_seconds(std::chrono::duration<double>(options.reconnect).count());
-    open.set_run_id(options.run != 0 ? options.run : random_run_id());
-    if (options.parts > 1) open.set_parts(options.parts);
-    open.set_part(options.part);
-    return open;
 }
 
 StreamOptions with_bounded_waits(StreamOptions options) {
@@ -121,11 +86,11 @@ void require_known_parts(const Connection& connection, const StreamOptions& opti
 }  // namespace
 
 Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options,
-                   std::shared_ptr<MadeSessions> made, NamedArrays named)
+                   Uploads uploads, std::shared_ptr<MadeSessions> made, NamedArrays named)
     : connection_(std::move(connection)),
       options_(with_bounded_waits(options)),
       made_(std::move(made)),
-      open_(open_message(session_id, options_)),
+      session_id_(session_id),
       named_(std::move(named)) {
     require_valid_part(options_);
     require_known_parts(*connection_, options_);
@@ -136,14 +101,20 @@ Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& se
         created_by_ = ended_by(context);
         named_ = NamedArrays(session_.settings());
     }
-    if (options_.receive_meshes) *open_.mutable_codecs() = codec_order(*connection_, options_.codec, options_.stop);
+    if (uploads == Uploads::bricks)
+        opening_ = publish_opening(session_id, options_);
+    else
+        opening_ = stream_opening(
+            session_id, options_,
+            options_.receive_meshes ? codec_order(*connection_, options_.codec, options_.stop) : WireCodecs());
     call_ = open_call();
 }
 
 std::shared_ptr<Stream::Impl> Stream::Impl::open(std::shared_ptr<Connection> connection, const std::string& session_id,
-                                                 const StreamOptions& options, std::shared_ptr<MadeSessions> made,
-                                                 NamedArrays named) {
-    auto impl = std::make_shared<Impl>(std::move(connection), session_id, options, std::move(made), std::move(named));
+                                                 const StreamOptions& options, Uploads uploads,
+                                                 std::shared_ptr<MadeSessions> made, NamedArrays named) {
+    auto impl =
+        std::make_shared<Impl>(std::move(connection), session_id, options, uploads, std::move(made), std::move(named));
     try {
         impl->start(impl);
     } catch (...) {
@@ -204,7 +175,7 @@ void Stream::Impl::cancel() {
 }
 
 std::shared_ptr<UploadCall> Stream::Impl::open_call() const {
-    return std::make_shared<UploadCall>(connection_, open_.session_id(), open_);
+    return std::make_shared<UploadCall>(connection_, session_id_, opening_);
 }
 
 bool Stream::Impl::wait_for_room(std::uint64_t index, WhenFull when_full) {
@@ -236,7 +207,7 @@ void Stream::Impl::look_for_names() {
         looking_ = looking;
     }
     v1::Session session;
-    if (get_session(*connection_, *looking, open_.session_id(), session).ok()) named_ = NamedArrays(session.settings());
+    if (get_session(*connection_, *looking, session_id_, session).ok()) named_ = NamedArrays(session.settings());
 }
 
 void Stream::Impl::enqueue(std::shared_ptr<PushedFrame> frame) {
@@ -322,7 +293,7 @@ void Stream::Impl::receive(std::shared_ptr<UploadCall> call) {
                 const std::lock_guard lock(mutex_);
                 if (!unanswered_.empty())
                     throw ServerError("the server at " + connection_->address + " ended the stream before frame " +
-                                      std::to_string(unanswered_.front()->begin.frame_index()) + " was answered");
+                                      std::to_string(unanswered_.front()->index) + " was answered");
                 break;
             }
             const bool was_idle = ended_for_idleness(call->context());
@@ -393,7 +364,7 @@ void Stream::Impl::take(const v1::FrameDropped& dropped) {
 }
 
 bool Stream::Impl::settle(std::uint64_t index) {
-    if (sent_ == 0 || unanswered_.front()->begin.frame_index() != index) {
+    if (sent_ == 0 || unanswered_.front()->index != index) {
         if (last_answered_ && index <= *last_answered_) return false;
         throw ServerError("the server at " + connection_->address + " answered frame " + std::to_string(index) +
                           ", which is not the next one that it was sent");

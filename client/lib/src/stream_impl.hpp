@@ -35,13 +35,15 @@ namespace meniscus::client {
 /// the session belongs.
 class Stream::Impl {
 public:
+    enum class Uploads { particles, bricks };
+
     /// made: gets each session that this creates again; may be none.
     /// named: by the session's settings, where they are known.
     static std::shared_ptr<Impl> open(std::shared_ptr<Connection> connection, const std::string& session_id,
-                                      const StreamOptions& options, std::shared_ptr<MadeSessions> made = nullptr,
-                                      NamedArrays named = {});
+                                      const StreamOptions& options, Uploads uploads = Uploads::particles,
+                                      std::shared_ptr<MadeSessions> made = nullptr, NamedArrays named = {});
     Impl(std::shared_ptr<Connection> connection, const std::string& session_id, const StreamOptions& options,
-         std::shared_ptr<MadeSessions> made, NamedArrays named);
+         Uploads uploads, std::shared_ptr<MadeSessions> made, NamedArrays named);
     ~Impl() = default;
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
@@ -119,7 +121,8 @@ private:
     const StreamOptions options_;
     const std::shared_ptr<MadeSessions> made_;
     const std::shared_ptr<BytePool> pool_ = std::make_shared<BytePool>();
-    v1::StreamOpen open_;
+    const std::string session_id_;
+    UploadOpening opening_;
     v1::CreateSessionRequest session_;  ///< for a server that has lost it
 
     // The following belong to the thread that pushes.

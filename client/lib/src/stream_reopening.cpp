@@ -45,7 +45,7 @@ std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
                 "the server at " + connection_->address + " has not been available for " +
                     std::to_string(std::chrono::duration_cast<std::chrono::seconds>(options_.reconnect).count()) +
                     " s (" + status.error_message() + "): frame " +
-                    (unanswered_.empty() ? "none" : std::to_string(unanswered_.front()->begin.frame_index())) +
+                    (unanswered_.empty() ? "none" : std::to_string(unanswered_.front()->index)) +
                     " is the first without an answer",
                 ErrorCode::unavailable, "UNAVAILABLE");
         if (changed_.wait_until(lock, attempt_at, [&] { return left_; })) return nullptr;

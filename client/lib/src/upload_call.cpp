@@ -18,6 +18,16 @@ namespace {
 
 using google::protobuf::io::CodedOutputStream;
 
+// What follows serves both calls.
+static_assert(int{v1::PublishRequest::kFrameChunkFieldNumber} == int{v1::StreamRequest::kFrameChunkFieldNumber});
+static_assert(int{v1::PublishRequest::kFrameEndFieldNumber} == int{v1::StreamRequest::kFrameEndFieldNumber});
+static_assert(int{v1::PublishRequest::kMoveFieldNumber} == int{v1::StreamRequest::kMoveFieldNumber});
+static_assert(int{v1::PublishRequest::kFinishFieldNumber} == int{v1::StreamRequest::kFinishFieldNumber});
+static_assert(int{v1::PublishResponse::kFrameStatisticsFieldNumber} ==
+              int{v1::StreamResponse::kFrameStatisticsFieldNumber});
+static_assert(int{v1::PublishResponse::kDrainingFieldNumber} == int{v1::StreamResponse::kDrainingFieldNumber});
+static_assert(int{v1::PublishResponse::kFrameDroppedFieldNumber} == int{v1::StreamResponse::kFrameDroppedFieldNumber});
+
 /// The largest that the server takes.
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 
@@ -25,9 +35,9 @@ constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 /// its stubs consist of, from a namespace whose names another version of gRPC may change (here: 1.51). The compiler
 /// would notice, and so would the tests of streams.
 std::unique_ptr<grpc::ClientReaderWriter<grpc::ByteBuffer, v1::StreamResponse>> start(Connection& connection,
+                                                                                      const char* path,
                                                                                       grpc::ClientContext& context) {
-    const grpc::internal::RpcMethod method("/meniscus.v1.SurfaceService/Stream",
-                                           grpc::internal::RpcMethod::BIDI_STREAMING, connection.channel);
+    const grpc::internal::RpcMethod method(path, grpc::internal::RpcMethod::BIDI_STREAMING, connection.channel);
     return std::unique_ptr<grpc::ClientReaderWriter<grpc::ByteBuffer, v1::StreamResponse>>(
         grpc::internal::ClientReaderWriterFactory<grpc::ByteBuffer, v1::StreamResponse>::Create(
             connection.channel.get(), method, &context));
@@ -62,31 +72,27 @@ grpc::ByteBuffer chunk_message(const std::shared_ptr<const void>& memory, std::s
 }  // namespace
 
 UploadCall::UploadCall(std::shared_ptr<Connection> connection, const std::string& session_id,
-                       const v1::StreamOpen& open)
-    : connection_(std::move(connection)), sends_parts_(open.parts() > 1) {
+                       const UploadOpening& opening)
+    : connection_(std::move(connection)), sends_parts_(opening.sends_parts) {
     connection_->add_metadata(context_, session_id);
-    call_ = start(*connection_, context_);
-    v1::StreamRequest request;
-    *request.mutable_open() = open;
+    call_ = start(*connection_, opening.method, context_);
     // A refusal arrives as the call's status.
-    send(request, {});
+    send(opening.request, {});
 }
 
 bool UploadCall::send(const PushedFrame& frame) {
-    v1::StreamRequest request;
-    *request.mutable_frame_begin() = frame.begin;
-    if (!send(request, grpc::WriteOptions().set_buffer_hint())) return false;
+    if (!send(frame.begin, grpc::WriteOptions().set_buffer_hint())) return false;
     for (std::span<const std::byte> part : frame.parts)
         for (; !part.empty(); part = part.subspan(std::min(chunk_bytes, part.size())))
             if (!call_->Write(chunk_message(frame.memory, part.first(std::min(chunk_bytes, part.size())))))
                 return false;
+    v1::StreamRequest request;
     request.mutable_frame_end();
-    return send(request, {});
+    return send(request.SerializeAsString(), {});
 }
 
-bool UploadCall::send(const v1::StreamRequest& request, grpc::WriteOptions options) {
-    const std::string text = request.SerializeAsString();
-    const grpc::Slice slice(text);
+bool UploadCall::send(const std::string& request, grpc::WriteOptions options) {
+    const grpc::Slice slice(request);
     return call_->Write(grpc::ByteBuffer(&slice, 1), options);
 }
 
@@ -94,7 +100,7 @@ void UploadCall::no_more_frames() {
     if (sends_parts_) {
         v1::StreamRequest request;
         request.mutable_finish();
-        send(request, {});
+        send(request.SerializeAsString(), {});
     }
     call_->WritesDone();
 }
@@ -102,7 +108,7 @@ void UploadCall::no_more_frames() {
 void UploadCall::move() {
     v1::StreamRequest request;
     request.mutable_move();
-    send(request, {});
+    send(request.SerializeAsString(), {});
 }
 
 std::string UploadCall::accepted_by() {

@@ -1,4 +1,4 @@
-// One Stream call: frames out, responses in.
+// One call of Stream or Publish: frames out, responses in.
 #pragma once
 
 #include <grpcpp/client_context.h>
@@ -13,10 +13,17 @@
 
 namespace meniscus::client {
 
+/// How the call begins.
+struct UploadOpening {
+    const char* method = nullptr;  ///< path of Stream or Publish
+    std::string request;           ///< the first, serialized
+    bool sends_parts = false;
+};
+
 /// One thread may send while another reads.
 class UploadCall {
 public:
-    UploadCall(std::shared_ptr<Connection> connection, const std::string& session_id, const v1::StreamOpen& open);
+    UploadCall(std::shared_ptr<Connection> connection, const std::string& session_id, const UploadOpening& opening);
 
     /// False once the call has ended: read() and then finish() say why. Copies no particles: gRPC refers to the
     /// frame's bytes, and keeps them, until they are on the wire.
@@ -38,7 +45,8 @@ public:
     void cancel();
 
 private:
-    bool send(const v1::StreamRequest& request, grpc::WriteOptions options);
+    /// request: serialized.
+    bool send(const std::string& request, grpc::WriteOptions options);
 
     const std::shared_ptr<Connection> connection_;
     const bool sends_parts_;

@@ -19,6 +19,7 @@ class ServerInfo:
     backend_reason: str
     threads: int
     publishes: bool  #: whether sessions may be published
+    checks_published: bool  #: whether surfaces that were made elsewhere are refused unless they are closed
     limits: Mapping[str, float]  #: by name, as in "max_particles_per_frame"; 0: none
 
     def __repr__(self) -> str:

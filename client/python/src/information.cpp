@@ -56,6 +56,7 @@ py::dict to_dict(const client::ServerInfo& server) {
     out["backend_reason"] = server.backend_reason;
     out["threads"] = server.threads;
     out["publishes"] = server.publishes;
+    out["checks_published"] = server.checks_published;
     out["limits"] = rows_dict(server);
     return out;
 }

@@ -32,6 +32,7 @@ v1::GetServerInfoResponse get_server_info(const BackendDescription& backend, uns
     response.set_threads(threads);
     conversion::add_known_codecs(*response.mutable_codecs());
     response.set_publishes(publishes);
+    response.set_checks_published(limits.check_published);
     *response.mutable_limits() = limits_message(limits);
     return response;
 }

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -38,8 +39,11 @@ namespace {
 /// the other parts of the frame are waited for, or the session before that, or reading has ended. The joint upload has
 /// the slot, and keeps it while this works on a message. The writing side sends what the upload's output holds for this
 /// part and finishes the call after its end. It also finishes after a cancellation, as soon as no write is under way,
-/// so that no call outlives its client.
-class StreamReactor final : public ByteReactor, public PartStream, public std::enable_shared_from_this<StreamReactor> {
+/// so that no call outlives its client. Request: StreamRequest or PublishRequest, which have the same kinds of message.
+template <class Request>
+class StreamReactor final : public ByteReactor,
+                            public PartStream,
+                            public std::enable_shared_from_this<StreamReactor<Request>> {
 public:
     StreamReactor(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals, ActiveCalls& calls,
                   grpc::CallbackServerContext& context)
@@ -52,9 +56,9 @@ public:
           assembler_(registry.limits()) {}
 
     void start(const Authorizer& authorizer) {
-        self_ = shared_from_this();
+        self_ = this->shared_from_this();
         try {
-            caller_ = admit(authorizer, context_, Action::stream);
+            caller_ = admit(authorizer, context_, publishes ? Action::publish : Action::stream);
             session_id_ = metadata_session_id(context_);
         } catch (...) {
             refuse(std::current_exception());
@@ -108,7 +112,7 @@ public:
         // Whether the status was sent, gRPC knows only now: a connection's reads may fail before it is known to be
         // broken, and then the call was finished as one after which nothing followed.
         joint_->done(part_, context_.IsCancelled() ? UploadEnd::vanished : UploadEnd::answered);
-        call_log.write({.session = session_id_}, "stream from {} closed: {}", peer_, outcome_);
+        call_log.write({.session = session_id_}, "{} from {} closed: {}", noun, peer_, outcome_);
     }
 
     // The joint upload's side.
@@ -142,6 +146,11 @@ public:
     }
 
 private:
+    static constexpr bool publishes = std::is_same_v<Request, v1::PublishRequest>;
+    static constexpr const char* noun = publishes ? "publisher" : "stream";
+    static_assert(int{Request::kFrameChunkFieldNumber} == int{v1::StreamRequest::kFrameChunkFieldNumber},
+                  "FrameChunkReader knows chunks by their number");
+
     /// False if what has been read is not wanted any more. Once there is a joint upload, it is left after the work.
     bool begin_work() {
         {
@@ -162,7 +171,7 @@ private:
 
     void receive() {
         if (!upload_) {
-            parse(incoming_, request_, "StreamRequest");
+            parse(incoming_, request_, name_of_request());
             if (!request_.has_open()) throw InvalidInput("the first message of a stream must be open");
             timer_.stop();
             open_or_wait();
@@ -189,37 +198,39 @@ private:
 
     /// False if the joint upload says when the next read is due.
     bool receive_message() {
-        parse(incoming_, request_, "StreamRequest");
+        parse(incoming_, request_, name_of_request());
         switch (request_.message_case()) {
-            case v1::StreamRequest::kOpen:
+            case Request::kOpen:
                 throw InvalidInput("a second open; a stream has one, its first message");
-            case v1::StreamRequest::kFrameBegin:
+            case Request::kFrameBegin:
                 announced_ = assembler_.announce(request_.frame_begin());
                 joint_->begin(part_, announced_);
                 return false;
-            case v1::StreamRequest::kFrameChunk:
+            case Request::kFrameChunk:
                 assembler_.append(request_.frame_chunk(), joint_->input());
                 chunk_arrived(request_.frame_chunk().data().size());
                 return true;
-            case v1::StreamRequest::kFrameEnd:
+            case Request::kFrameEnd:
                 assembler_.end();
                 joint_->end(part_);
                 return false;
-            case v1::StreamRequest::kMove:
+            case Request::kMove:
                 assembler_.end_of_stream();
                 joint_->move();
                 return false;
-            case v1::StreamRequest::kFinish:
+            case Request::kFinish:
                 assembler_.end_of_stream();
                 joint_->close(part_);
                 return false;
-            case v1::StreamRequest::MESSAGE_NOT_SET:
+            case Request::MESSAGE_NOT_SET:
                 break;
         }
         throw InvalidInput(unknown_kind(request_));
     }
 
-    static std::string unknown_kind(const v1::StreamRequest& message) {
+    static const char* name_of_request() { return publishes ? "PublishRequest" : "StreamRequest"; }
+
+    static std::string unknown_kind(const Request& message) {
         const auto& fields = message.GetReflection()->GetUnknownFields(message);
         if (fields.empty()) return "a message of no kind: it has no field";
         return fmt::format("a message with the field {}, a kind that this version does not know",
@@ -228,7 +239,7 @@ private:
 
     /// The next read starts once what has arrived is booked: until then gRPC's flow control slows the simulator down.
     void read_once_booked() {
-        const bool booked = passes_over_ || joint_->book(assembler_.take_kept(), [self = weak_from_this()] {
+        const bool booked = passes_over_ || joint_->book(assembler_.take_kept(), [self = this->weak_from_this()] {
             if (const auto reactor = self.lock()) reactor->booked();
         });
         const std::lock_guard lock(mutex_);
@@ -282,7 +293,7 @@ private:
             waits_to_open_ = true;
         }
         alarm_ = std::make_unique<grpc::Alarm>();
-        alarm_->Set(std::chrono::system_clock::now() + pause, [weak = weak_from_this()](bool /*rang*/) {
+        alarm_->Set(std::chrono::system_clock::now() + pause, [weak = this->weak_from_this()](bool /*rang*/) {
             if (const auto self = weak.lock()) self->open_again();
         });
     }
@@ -305,17 +316,19 @@ private:
         write();
     }
 
-    void open(const v1::StreamOpen& message) {
+    template <class Open>
+    void open(const Open& message) {
         require_same_session(session_id_, message.session_id());
         UploadOptions options = upload_options(message);
         const auto session = find_session(caller_, registry_, session_id_);
-        const CodecChoice codec = codec_choice(message);
+        CodecChoice codec;
+        if constexpr (!publishes) codec = codec_choice(message);
         options.codec = codec.codec;
         // Before it, as a server that stops waits for streams of its sessions alone.
         if (!active_) active_.emplace(calls_);
-        auto joint = JointUpload::open(session, options, message.part(), weak_from_this());
+        auto joint = JointUpload::open(session, options, message.part(), this->weak_from_this());
         assembler_ = FrameAssembler(registry_.limits(), session->settings());
-        call_log.write({.session = session_id_}, "stream from {} opened", peer_);
+        call_log.write({.session = session_id_}, "{} from {} opened", noun, peer_);
         {
             const std::lock_guard lock(mutex_);
             part_ = message.part();
@@ -416,7 +429,7 @@ private:
 
     // The following belong to the reading side.
     grpc::ByteBuffer incoming_;
-    v1::StreamRequest request_;
+    Request request_;
     FrameAssembler assembler_;                             ///< of the session, once there is one
     FramePart announced_;                                  ///< of the frame begun last
     bool passes_over_ = false;                             ///< its bytes
@@ -443,11 +456,17 @@ private:
 
 }  // namespace
 
+template <class Request>
 ByteReactor* start_stream(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals,
                           ActiveCalls& calls, grpc::CallbackServerContext& context) {
-    const auto reactor = std::make_shared<StreamReactor>(registry, authorizer, refusals, calls, context);
+    const auto reactor = std::make_shared<StreamReactor<Request>>(registry, authorizer, refusals, calls, context);
     reactor->start(authorizer);
     return reactor.get();
 }
+
+template ByteReactor* start_stream<v1::StreamRequest>(SessionRegistry&, const Authorizer&, Refusals&, ActiveCalls&,
+                                                      grpc::CallbackServerContext&);
+template ByteReactor* start_stream<v1::PublishRequest>(SessionRegistry&, const Authorizer&, Refusals&, ActiveCalls&,
+                                                       grpc::CallbackServerContext&);
 
 }  // namespace meniscus::server

@@ -1,4 +1,4 @@
-// SurfaceService.Stream: particle frames in, meshes out.
+// SurfaceService.Stream and Publish: frames of particles or of finished bricks in, meshes and statistics out.
 #pragma once
 
 #include <grpcpp/server_context.h>
@@ -11,7 +11,8 @@
 
 namespace meniscus::server {
 
-/// The call's reactor, which owns itself until the call is done.
+/// The call's reactor, which owns itself until the call is done. Request: v1::StreamRequest or v1::PublishRequest.
+template <class Request>
 ByteReactor* start_stream(SessionRegistry& registry, const Authorizer& authorizer, Refusals& refusals,
                           ActiveCalls& calls, grpc::CallbackServerContext& context);
 

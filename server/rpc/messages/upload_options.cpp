@@ -15,7 +15,8 @@ namespace meniscus::server {
 
 namespace {
 
-UploadPolicy policy_of(const v1::StreamOpen& message) {
+template <class Open>
+UploadPolicy policy_of(const Open& message) {
     switch (message.policy()) {
         case v1::UPLOAD_POLICY_UNSPECIFIED:
         case v1::UPLOAD_POLICY_EVERY_FRAME:
@@ -33,7 +34,8 @@ UploadPolicy policy_of(const v1::StreamOpen& message) {
         fmt::format("policy has the value {}, which this version does not know", static_cast<int>(message.policy())));
 }
 
-std::uint32_t parts_of(const v1::StreamOpen& message) {
+template <class Open>
+std::uint32_t parts_of(const Open& message) {
     const std::uint32_t parts = std::max(message.parts(), 1U);
     if (parts > parts_per_frame)
         throw InvalidInput(fmt::format("parts is {}; a frame has at most {}", message.parts(), parts_per_frame));
@@ -44,7 +46,8 @@ std::uint32_t parts_of(const v1::StreamOpen& message) {
     return parts;
 }
 
-std::chrono::milliseconds reconnect_of(const v1::StreamOpen& message) {
+template <class Open>
+std::chrono::milliseconds reconnect_of(const Open& message) {
     const double seconds = message.reconnect_seconds();
     if (!std::isfinite(seconds) || seconds < 0.0)
         throw InvalidInput(fmt::format("reconnect_seconds is {}; it must be finite and at least 0", seconds));
@@ -60,6 +63,15 @@ UploadOptions upload_options(const v1::StreamOpen& message) {
             .normal_bits = normal_bits_of(message),
             .spray = message.with_spray(),
             .attributes = conversion::attribute_wishes(message.attributes()),
+            .policy = policy_of(message),
+            .nth = message.nth(),
+            .run_id = message.run_id(),
+            .parts = parts_of(message),
+            .reconnect = reconnect_of(message)};
+}
+
+UploadOptions upload_options(const v1::PublishOpen& message) {
+    return {.frames = FrameKind::bricks,
             .policy = policy_of(message),
             .nth = message.nth(),
             .run_id = message.run_id(),

@@ -8,5 +8,6 @@ namespace meniscus::server {
 
 /// But for the codec: see codec_choice(). Throws InvalidInput for a value out of range.
 UploadOptions upload_options(const v1::StreamOpen& message);
+UploadOptions upload_options(const v1::PublishOpen& message);
 
 }  // namespace meniscus::server

@@ -80,7 +80,10 @@ SurfaceServiceImpl::SurfaceServiceImpl(SessionRegistry& registry, const Authoriz
                                        ActiveCalls& streams, ActiveCalls& watchers)
     : ByteService(v1::SurfaceService::service_full_name()) {
     add("Stream", [&](grpc::CallbackServerContext& context) {
-        return start_stream(registry, authorizer, refusals, streams, context);
+        return start_stream<v1::StreamRequest>(registry, authorizer, refusals, streams, context);
+    });
+    add("Publish", [&](grpc::CallbackServerContext& context) {
+        return start_stream<v1::PublishRequest>(registry, authorizer, refusals, streams, context);
     });
     add("Watch", [&](grpc::CallbackServerContext& context) {
         return start_watch<v1::WatchRequest>(registry, authorizer, refusals, watchers, context);

@@ -50,18 +50,30 @@ private:
 
 }  // namespace
 
-FramePart FrameAssembler::announce(const v1::FrameBegin& message) const {
-    if (in_frame_)
-        throw InvalidInput(fmt::format("frame {} begins before frame {} has ended", message.frame_index(), *index_));
-    if (index_ && message.frame_index() <= *index_)
-        throw InvalidInput(
-            fmt::format("frame index {} after {}; indices must increase", message.frame_index(), *index_));
-    if (!std::isfinite(message.simulation_time()))
-        throw InvalidInput(fmt::format("frame {}: simulation_time is {}; it must be finite", message.frame_index(),
-                                       message.simulation_time()));
+FramePart FrameAssembler::announce(std::uint64_t index, double simulation_time) const {
+    if (in_frame_) throw InvalidInput(fmt::format("frame {} begins before frame {} has ended", index, *index_));
+    if (index_ && index <= *index_)
+        throw InvalidInput(fmt::format("frame index {} after {}; indices must increase", index, *index_));
+    if (!std::isfinite(simulation_time))
+        throw InvalidInput(fmt::format("frame {}: simulation_time is {}; it must be finite", index, simulation_time));
     FramePart part;
-    part.index = message.frame_index();
-    part.simulation_time = message.simulation_time();
+    part.index = index;
+    part.simulation_time = simulation_time;
+    return part;
+}
+
+FramePart FrameAssembler::announce(const v1::PublishBegin& message) const {
+    FramePart part = announce(message.mesh().frame_index(), message.mesh().simulation_time());
+    try {
+        part.bricks = brick_part(message, settings_);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(fmt::format("frame {}: {}", part.index, error.what()));
+    }
+    return part;
+}
+
+FramePart FrameAssembler::announce(const v1::FrameBegin& message) const {
+    FramePart part = announce(message.frame_index(), message.simulation_time());
     part.particle_count = message.particle_count();
     try {
         part.layout = conversion::particle_layout(message.arrays());
@@ -76,7 +88,8 @@ FramePart FrameAssembler::announce(const v1::FrameBegin& message) const {
 void FrameAssembler::place(const FramePart& part, std::vector<FramePiece> pieces) {
     pieces_ = std::move(pieces);
     expected_ = arriving_bytes(part);
-    count_ = part.particle_count;
+    content_ =
+        part.bricks ? fmt::format("{} bricks", part.bricks->bricks) : fmt::format("{} particles", part.particle_count);
     index_ = part.index;
     piece_ = 0;
     filled_ = 0;
@@ -104,8 +117,8 @@ void FrameAssembler::admit_chunk(std::size_t bytes) {
             fmt::format("frame {}: more than {} chunks; the server takes at most {} per frame: send larger ones",
                         *index_, chunks_, limits_.chunks_per_frame));
     if (bytes > expected_ - filled_)
-        throw InvalidInput(fmt::format("frame {}: at least {} bytes for {} particles; {} were announced", *index_,
-                                       filled_ + bytes, count_, expected_));
+        throw InvalidInput(fmt::format("frame {}: at least {} bytes for {}; {} were announced", *index_,
+                                       filled_ + bytes, content_, expected_));
     ++chunks_;
 }
 
@@ -113,7 +126,7 @@ void FrameAssembler::end() {
     if (!in_frame_) throw InvalidInput("frame_end outside of a frame; frame_begin comes first");
     if (filled_ != expected_)
         throw InvalidInput(
-            fmt::format("frame {}: {} bytes for {} particles; {} were announced", *index_, filled_, count_, expected_));
+            fmt::format("frame {}: {} bytes for {}; {} were announced", *index_, filled_, content_, expected_));
     in_frame_ = false;
 }
 

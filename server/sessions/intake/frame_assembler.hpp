@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,7 @@ public:
 
     /// A frame, or the stream's part of one, that is to begin. place() or pass_over() follows, before the first chunk.
     FramePart announce(const v1::FrameBegin& message) const;
+    FramePart announce(const v1::PublishBegin& message) const;
     /// Begins it. pieces: see begin_frame().
     void place(const FramePart& part, std::vector<FramePiece> pieces);
     /// Begins it, and keeps none of its bytes.
@@ -64,6 +66,8 @@ public:
     std::size_t take_kept() noexcept { return std::exchange(kept_since_, 0); }
 
 private:
+    /// Throws for an index that is out of order, and for a time that is none.
+    FramePart announce(std::uint64_t index, double simulation_time) const;
     /// Throws for one that is out of place, or too many.
     void admit_chunk(std::size_t bytes);
 
@@ -74,7 +78,7 @@ private:
     std::size_t piece_ = 0;           ///< that the next byte is of
     std::size_t filled_ = 0;          ///< bytes that have arrived
     std::size_t kept_since_ = 0;      ///< of those, since take_kept()
-    std::uint64_t count_ = 0;         ///< of particles
+    std::string content_;             ///< of the frame begun last, in words: "7 particles"
     std::uint32_t chunks_ = 0;
     std::optional<std::uint64_t> index_;  ///< of the frame begun last
     std::size_t expected_ = 0;

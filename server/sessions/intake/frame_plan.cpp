@@ -84,6 +84,55 @@ void require_same_form(std::span<const FramePart> parts, const FramePart& lead, 
                          words_of(find_array(lead.kept, array.name)));
 }
 
+/// Throws LimitExceeded for a frame of more bytes than may be in flight, or held.
+void allocate(std::size_t bytes, std::uint64_t index, InputFrame& frame) {
+    try {
+        frame.allocate(bytes);
+    } catch (const LimitReached& error) {
+        throw LimitReached(error.limit(), fmt::format("frame {}: {}", index, error.what()));
+    } catch (const LimitExceeded& error) {
+        throw LimitExceeded(fmt::format("frame {}: {}", index, error.what()));
+    }
+}
+
+/// begin_frame() of finished bricks.
+std::vector<std::vector<FramePiece>> begin_brick_frame(std::span<const FramePart> parts, const Limits& limits,
+                                                       InputFrame& frame) {
+    const FramePart& lead = parts.front();
+    const std::uint64_t limit = limits.bytes_per_session != 0 ? limits.bytes_per_session : countable;
+    std::vector<BrickPart> bricks;
+    std::vector<std::vector<FramePiece>> pieces;
+    std::size_t bytes = 0;
+    for (const FramePart& part : parts) {
+        if (words_of(part.simulation_time) != words_of(lead.simulation_time))
+            throw InvalidInput(
+                fmt::format("frame {}: simulation_time of part {} is {}, and {} in part 0; in all parts of a "
+                            "frame it is the same",
+                            part.index, bricks.size(), part.simulation_time, lead.simulation_time));
+        bricks.push_back(*part.bricks);
+        const std::size_t more = bricks.back().bytes;
+        if (more > limit - bytes)
+            throw LimitExceeded(
+                fmt::format("frame {}: bricks of more than {} bytes; the server holds at most {} bytes per "
+                            "session",
+                            lead.index, limit, limit));
+        auto& of_part = pieces.emplace_back();
+        if (more != 0) of_part.push_back({.begin = 0, .end = more, .kept = true, .place = bytes});
+        bytes += more;
+    }
+    try {
+        require_same_surface(bricks);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(fmt::format("frame {}: {}", lead.index, error.what()));
+    }
+    allocate(bytes, lead.index, frame);
+    frame.index = lead.index;
+    frame.simulation_time = lead.simulation_time;
+    frame.particle_count = 0;
+    frame.brick_parts = std::move(bricks);
+    return pieces;
+}
+
 /// The particles of all parts. Throws LimitExceeded for too many.
 std::size_t particles_of(std::span<const FramePart> parts, const FramePart& lead, const Limits& limits) {
     std::uint64_t count = 0;
@@ -177,6 +226,7 @@ std::vector<FurtherArray> arrays_to_keep(const conversion::ParticleLayout& layou
 }
 
 std::size_t arriving_bytes(const FramePart& part) {
+    if (part.bricks) return part.bricks->bytes;
     if (part.particle_count > countable / part.layout.particle_bytes)
         throw LimitExceeded(fmt::format("frame {}: {} particles of {} bytes; the server takes at most {} bytes",
                                         part.index, part.particle_count, part.layout.particle_bytes, countable));
@@ -185,18 +235,13 @@ std::size_t arriving_bytes(const FramePart& part) {
 
 std::vector<std::vector<FramePiece>> begin_frame(std::span<const FramePart> parts, const Limits& limits,
                                                  InputFrame& frame) {
+    if (parts.front().bricks) return begin_brick_frame(parts, limits, frame);
     const auto with_particles = std::ranges::find_if(parts, [](const auto& part) { return part.particle_count != 0; });
     const FramePart& lead = with_particles != parts.end() ? *with_particles : parts.front();
     for (const FramePart& part : parts) require_same_form(parts, lead, part);
     const std::size_t count = particles_of(parts, lead, limits);
     Places places = places_of(lead, count);
-    try {
-        frame.allocate(places.bytes);
-    } catch (const LimitReached& error) {
-        throw LimitReached(error.limit(), fmt::format("frame {}: {}", lead.index, error.what()));
-    } catch (const LimitExceeded& error) {
-        throw LimitExceeded(fmt::format("frame {}: {}", lead.index, error.what()));
-    }
+    allocate(places.bytes, lead.index, frame);
     frame.index = lead.index;
     frame.simulation_time = lead.simulation_time;
     frame.particle_count = count;

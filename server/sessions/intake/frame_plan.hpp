@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "conversion/particle_arrays.hpp"
 #include "meniscus/settings.hpp"
+#include "sessions/intake/brick_part.hpp"
 #include "sessions/intake/input_frame.hpp"
 #include "sessions/limits/limits.hpp"
 
@@ -21,6 +23,7 @@ struct FramePart {
     conversion::ParticleLayout layout;
     std::vector<conversion::FurtherArray> kept;  ///< see arrays_to_keep()
     Box quantization_box;
+    std::optional<BrickPart> bricks;  ///< that come in place of particles; none: particles
 };
 
 /// The bytes of one array as they arrive over a stream.
@@ -40,10 +43,10 @@ std::vector<conversion::FurtherArray> arrays_to_keep(const conversion::ParticleL
 /// All bytes of the part, as they arrive. Throws LimitExceeded for more than can be counted.
 std::size_t arriving_bytes(const FramePart& part);
 
-/// Begins the frame that consists of these parts, the particles of one behind those of the part before: gives it memory
-/// for all of them. Returns where the bytes of each part go: pieces one behind the other, none of them empty. Throws
-/// InvalidInput for parts that do not fit each other, LimitExceeded for a frame past a limit, before it takes memory.
-/// parts: of one index, at least one.
+/// Begins the frame that consists of these parts, the particles or bricks of one behind those of the part before: gives
+/// it memory for all of them. Returns where the bytes of each part go: pieces one behind the other, none of them empty.
+/// Throws InvalidInput for parts that do not fit each other, LimitExceeded for a frame past a limit, before it takes
+/// memory. parts: of one index, at least one; all of particles, or all of bricks.
 std::vector<std::vector<FramePiece>> begin_frame(std::span<const FramePart> parts, const Limits& limits,
                                                  InputFrame& frame);
 

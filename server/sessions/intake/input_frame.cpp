@@ -11,6 +11,7 @@ void InputFrame::allocate(std::size_t size) {
     in_flight_.announce(size);
     retained_.drop();
     shown_in_run.reset();
+    brick_parts.clear();
     keep_arrays({});
     if (bytes.capacity() < size) {
         pinned_.drop();

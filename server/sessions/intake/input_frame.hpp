@@ -1,4 +1,4 @@
-// One particle frame as received, in a buffer that is reused.
+// One frame as received, of particles or of finished bricks, in a buffer that is reused.
 #pragma once
 
 #include <chrono>
@@ -15,6 +15,7 @@
 #include "meniscus/frame_upload.hpp"
 #include "meniscus/memory.hpp"
 #include "meniscus/particle_frame.hpp"
+#include "sessions/intake/brick_part.hpp"
 #include "sessions/intake/pinned_bytes.hpp"
 #include "sessions/limits/bytes_in_flight.hpp"
 #include "sessions/limits/retained_memory.hpp"
@@ -63,6 +64,7 @@ struct InputFrame {
         pinned_.drop();
         Array<std::byte>(bytes.get_allocator()).swap(bytes);
         particle_count = 0;
+        brick_parts.clear();
         keep_arrays({});
         shown_in_run.reset();
         retained_.drop();
@@ -101,7 +103,10 @@ struct InputFrame {
     bool quantized = false;
     bool has_levels = false;
     Box quantization_box;
-    Array<std::byte> bytes;  ///< all positions, then all levels, then the arrays
+    /// Of a frame of bricks what its publishers say, by part; empty for one of particles, from allocate() on.
+    std::vector<BrickPart> brick_parts;
+    /// All positions, then all levels, then the arrays; or the messages of each part.
+    Array<std::byte> bytes;
     std::chrono::steady_clock::time_point received_at;
     /// The run's number, once the session has shown these particles; none again from allocate() on.
     std::optional<std::uint64_t> shown_in_run;

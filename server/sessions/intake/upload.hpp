@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,21 @@
 #include "sessions/sending/output_queue.hpp"
 
 namespace meniscus::server {
+
+/// What comes in the frames of an upload, and of all uploads to its session.
+enum class FrameKind : std::uint8_t {
+    particles,  ///< to be reconstructed
+    bricks,     ///< of a surface that was made elsewhere
+};
+constexpr std::string_view name_of(FrameKind kind) {
+    switch (kind) {
+        case FrameKind::particles:
+            return "particles";
+        case FrameKind::bricks:
+            return "bricks";
+    }
+    return {};
+}
 
 /// The treatment of frames that come faster than they are reconstructed.
 enum class UploadPolicy {
@@ -35,6 +51,7 @@ enum class UploadEnd : std::uint8_t {
 };
 
 struct UploadOptions {
+    FrameKind frames = FrameKind::particles;
     bool receive_meshes = false;
     int normal_bits = 0;
     Codec codec = Codec::draco;

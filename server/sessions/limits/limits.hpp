@@ -82,6 +82,8 @@ struct Limits {
     std::chrono::milliseconds orphan_time{0};
     /// An ephemeral session without a stream ends after this time.
     std::chrono::milliseconds ephemeral_time{5'000};
+    /// Whether a surface that was made elsewhere is refused unless it is closed.
+    bool check_published = false;
     /// Bytes of one message as it arrives; at least min_message_bytes.
     std::size_t message_bytes = std::size_t{4} << 20;
 

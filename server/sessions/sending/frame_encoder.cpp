@@ -6,13 +6,12 @@
 #include <utility>
 
 #include "conversion/attribute_conversion.hpp"
-#include "conversion/brick_conversion.hpp"
 #include "meniscus/attribute_coding.hpp"
 #include "meniscus/brick_coding.hpp"
 #include "meniscus/packed_bricks.hpp"
 #include "meniscus/v1/surface_service.pb.h"
 #include "sessions/sending/begin_message.hpp"
-#include "sessions/sending/place_order.hpp"
+#include "sessions/sending/brick_messages.hpp"
 #include "sessions/sending/spray_messages.hpp"
 #include "sessions/sending/statistics_message.hpp"
 
@@ -37,30 +36,8 @@ SharedMessage serialize(const v1::StreamResponse& response) {
     return std::make_shared<const std::string>(response.SerializeAsString());
 }
 
-SharedBrick brick_messages(const EncodedBrick& brick, const ContentHash& content_hash) {
-    auto result = std::make_shared<BrickMessages>();
-    result->place = brick.coordinate;
-    result->content_hash = content_hash;
-    result->triangles = brick.triangles;
-    for (v1::MeshBrick& part : conversion::to_wire(brick)) {
-        v1::StreamResponse response;
-        *response.mutable_mesh_brick() = std::move(part);
-        result->messages.push_back(serialize(response));
-        result->bytes += result->messages.back()->size();
-    }
-    return result;
-}
-
-/// The earlier frame's brick at this place; none if there was none.
-SharedBrick find_brick(const EncodedFrame* frame, const std::array<std::int32_t, 3>& place) {
-    if (frame == nullptr) return nullptr;
-    const auto found = std::ranges::lower_bound(frame->bricks, PlaceOrder(place), {},
-                                                [](const SharedBrick& brick) { return PlaceOrder(brick->place); });
-    return found != frame->bricks.end() && (*found)->place == place ? *found : nullptr;
-}
-
 /// Bricks that the earlier frame has need not come down.
-void leave_known_bricks(PackedBricks& packed, const Mesh& mesh, const EncodedFrame* before) {
+void leave_known_bricks(PackedBricks& packed, const Mesh& mesh, const std::vector<SharedBrick>& before) {
     for (std::size_t i = 0; i < mesh.bricks.size(); ++i) {
         const SharedBrick brick = find_brick(before, mesh.bricks[i].coordinate);
         if (brick && brick->content_hash == packed.hash(i)) packed.leave(i);
@@ -116,25 +93,36 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
         if (sink) sink(message);
     };
     v1::StreamResponse begin = begin_response(*encoded);
-    begin.mutable_mesh_begin()->set_brick_count(static_cast<std::uint32_t>(mesh.bricks.size()));
-    begin.mutable_mesh_begin()->set_triangle_count(mesh.triangles.size());
+    const std::size_t bricks = frame.finished ? frame.finished->bricks.size() : mesh.bricks.size();
+    begin.mutable_mesh_begin()->set_brick_count(static_cast<std::uint32_t>(bricks));
+    begin.mutable_mesh_begin()->set_triangle_count(frame.finished ? frame.finished->triangles : mesh.triangles.size());
     encoded->begin = serialize(begin);
     emit(encoded->begin);
 
     std::mutex emitting;
     std::uint64_t bytes = 0;
-    encoded->bricks.resize(mesh.bricks.size());
-    if (packed) leave_known_bricks(*packed, mesh, before);
-    workers.for_each(mesh.bricks.size(), [&](std::size_t i) {
+    static const std::vector<SharedBrick> none;
+    const std::vector<SharedBrick>& earlier = before != nullptr ? before->bricks : none;
+    encoded->bricks.resize(bricks);
+    if (packed) leave_known_bricks(*packed, mesh, earlier);
+    const auto encoded_brick = [&](std::size_t i) {
         if (!packed) download.bring(i);
-        SharedBrick brick = find_brick(before, mesh.bricks[i].coordinate);
-        {
-            ScratchPool::Loan loan(scratch);
-            const PreparedBrick prepared =
-                packed ? PreparedBrick(*packed, i, coding, *loan) : PreparedBrick(mesh, i, coding, *loan);
-            const ContentHash hash = prepared.hash();
-            if (!brick || brick->content_hash != hash) brick = brick_messages(prepared.encode(), hash);
-        }
+        SharedBrick brick = find_brick(earlier, mesh.bricks[i].coordinate);
+        ScratchPool::Loan loan(scratch);
+        const PreparedBrick prepared =
+            packed ? PreparedBrick(*packed, i, coding, *loan) : PreparedBrick(mesh, i, coding, *loan);
+        const ContentHash hash = prepared.hash();
+        if (!brick || brick->content_hash != hash) brick = brick_messages(prepared.encode(), hash);
+        return brick;
+    };
+    std::optional<RecodedBricks> recoded;
+    if (frame.finished) recoded.emplace(*frame.finished, coding);
+    const auto recoded_brick = [&](std::size_t i) {
+        ScratchPool::Loan loan(scratch);
+        return recoded->brick(i, earlier, *loan);
+    };
+    workers.for_each(bricks, [&](std::size_t i) {
+        const SharedBrick brick = recoded ? recoded_brick(i) : encoded_brick(i);
         encoded->bricks[i] = brick;
         const std::lock_guard lock(emitting);
         bytes += brick->bytes;

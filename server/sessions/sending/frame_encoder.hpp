@@ -15,11 +15,12 @@
 #include "meniscus/statistics.hpp"
 #include "sessions/handover/worker_pool.hpp"
 #include "sessions/sending/encoded_frame.hpp"
+#include "sessions/sending/finished_bricks.hpp"
 #include "sessions/sending/scratch_pool.hpp"
 
 namespace meniscus::server {
 
-/// A frame after its reconstruction.
+/// A frame after its reconstruction, or one that came as finished bricks.
 struct ReconstructedFrame {
     /// The surface with its levels capped; `made` if a watcher asked for it.
     struct CappedMesh {
@@ -35,9 +36,10 @@ struct ReconstructedFrame {
     std::uint64_t run_id = 0;
     double simulation_time = 0.0;
     std::chrono::steady_clock::time_point received_at;
-    Mesh mesh;
-    MeshDownload download;             ///< of that mesh
-    std::array<CappedMesh, 2> capped;  ///< at levels 1 and 2
+    Mesh mesh;  ///< of finished bricks its lattice, the names and forms of its attributes, and its spray
+    std::shared_ptr<const FinishedBricks> finished;  ///< none: the mesh has all of it
+    MeshDownload download;                           ///< of that mesh
+    std::array<CappedMesh, 2> capped;                ///< at levels 1 and 2
     Statistics statistics;
     mutable std::array<std::optional<std::vector<AttributeRange>>, 3> ranges;  ///< see ranges_at()
 
@@ -45,6 +47,7 @@ struct ReconstructedFrame {
     void release_memory() {
         download = {};
         mesh = {};
+        finished = {};
         capped = {};
         ranges = {};
     }
@@ -73,10 +76,10 @@ struct ReconstructedFrame {
 using MessageSink = std::function<void(const SharedMessage&)>;
 
 /// Brings the mesh down, or its bricks where a GPU can pack them, and encodes these in parallel, but those whose
-/// content `before` has already: an earlier frame of the session in the same format, or none. The frame has the mesh of
-/// that format. sink may be empty. Throws DeviceError if the mesh cannot come down, LimitExceeded if the account of the
-/// scratch memory would pass its limit. spray_to_sink: whether the sink gets the spray as well, which the encoded frame
-/// has anyway.
+/// content `before` has already: an earlier frame of the session in the same format, or none. Finished bricks are
+/// passed on, or recoded. The frame has the mesh of that format. sink may be empty. Throws DeviceError if the mesh
+/// cannot come down, LimitExceeded if the account of the scratch memory would pass its limit. spray_to_sink: whether
+/// the sink gets the spray as well, which the encoded frame has anyway.
 std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame, const MeshFormat& format,
                                                  const EncodedFrame* before, WorkerPool& workers, ScratchPool& scratch,
                                                  const MessageSink& sink, bool spray_to_sink = false);

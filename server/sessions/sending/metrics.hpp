@@ -31,6 +31,8 @@ public:
     virtual void frame_dropped(DropReason /*reason*/) {}
     /// Reconstructed, and encoded for the simulator if it wants meshes.
     virtual void frame_finished(const FrameStatistics& /*statistics*/) {}
+    /// In its place for a surface that was made elsewhere, which is there for watchers.
+    virtual void surface_finished(const FrameStatistics& /*statistics*/) {}
     /// Bytes of one message. Takes no lock.
     virtual void message_sent(Receiver /*to*/, std::uint64_t /*bytes*/) {}
     /// A watcher had not taken the frame before a newer one replaced it.

@@ -228,7 +228,10 @@ void EncodingThread::answered(Upload& upload) {
 }
 
 void EncodingThread::count_answer(const FrameStatistics& statistics) {
-    context_.shared.metrics->frame_finished(statistics);
+    if (newest_->finished)
+        context_.shared.metrics->surface_finished(statistics);
+    else
+        context_.shared.metrics->frame_finished(statistics);
     const std::lock_guard lock(mutex_);
     last_frame_ = statistics;
 }

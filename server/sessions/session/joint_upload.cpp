@@ -45,6 +45,7 @@ void require_equal(const UploadOptions& options, const UploadOptions& first, std
             throw InvalidInput(fmt::format("part {} says {} {}, the parts before it {}; it is the same for all parts",
                                            part, what, is, of_first));
     };
+    require("frames of", name_of(options.frames), name_of(first.frames));
     require("parts", options.parts, first.parts);
     require("policy", static_cast<int>(options.policy), static_cast<int>(first.policy));
     require("nth", options.nth, first.nth);

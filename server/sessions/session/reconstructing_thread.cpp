@@ -53,6 +53,12 @@ ReconstructingThread::ReconstructingThread(const SessionContext& context, Recons
       watchers_(watchers),
       encoding_(encoding),
       stop_(stop),
+      bricks_(context.settings,
+              context.limits.check_published ? BrickReader::Check::closed_surface : BrickReader::Check::each_brick,
+              context.shared.workers,
+              std::make_shared<MemoryAccount>(context.limits.bytes_per_session, "to check its bricks",
+                                              context.shared.memory),
+              functions_.stop),
       particles_(context.identity.id, context.settings.particle_radius, inputs, watchers, context.observers),
       thread_(start_thread(fmt::format("that reconstructs session {}", context.identity.id), [this] { run(); })) {}
 
@@ -67,6 +73,7 @@ void ReconstructingThread::join() {
 
 void ReconstructingThread::release_memory() {
     functions_ = {};
+    bricks_.forget();
     particles_.forget();
 }
 
@@ -158,13 +165,9 @@ bool ReconstructingThread::in_turn(std::optional<Turns::Turn> turn, const std::f
 
 void ReconstructingThread::reconstruct(const Received& received, ReconstructedFrame& frame) {
     InputFrame& input = *received.input;
-    input.pin();
     const bool had_surface = std::exchange(has_surface_, false);
     try {
-        Reconstructed reconstructed = functions_.reconstruct(input.view(), frame.mesh);
-        frame.statistics = std::move(reconstructed.statistics);
-        frame.download = std::move(reconstructed.download);
-        has_surface_ = true;
+        make_surface(input, frame);
     } catch (const InvalidInput& error) {
         has_surface_ = had_surface;  // the one before
         throw InvalidInput(fmt::format("frame {}: {}", input.index, error.what()));
@@ -180,9 +183,19 @@ void ReconstructingThread::reconstruct(const Received& received, ReconstructedFr
     frame.simulation_time = input.simulation_time;
     frame.received_at = input.received_at;
     frame.number = progress_.frames + 1;
-    cap_levels(frame);
+    if (has_surface_) cap_levels(frame);
     const std::lock_guard lock(mutex_);
     progress_ = {.frames = frame.number, .last_frame_index = input.index};
+}
+
+void ReconstructingThread::make_surface(InputFrame& input, ReconstructedFrame& frame) {
+    has_finished_bricks_ = !input.brick_parts.empty();
+    if (has_finished_bricks_) return bricks_.read(input, frame);
+    input.pin();
+    Reconstructed reconstructed = functions_.reconstruct(input.view(), frame.mesh);
+    frame.statistics = std::move(reconstructed.statistics);
+    frame.download = std::move(reconstructed.download);
+    has_surface_ = true;
 }
 
 void ReconstructingThread::throw_stopped(std::uint64_t index) const {
@@ -268,11 +281,12 @@ void ReconstructingThread::release_buffers() {
     }
     if (!functions_.release_memory) return;
     // The newest particles may have been overwritten by a frame that was refused. Their mesh stays then.
-    const bool can_make_again = progress_.frames == 0 || particles_.keep();
+    const bool can_make_again = progress_.frames == 0 || (!has_finished_bricks_ && particles_.keep());
     // Meshes first: a download reads the reconstruction's memory.
     if (!encoding_.release_meshes(can_make_again ? EncodingThread::Newest::release : EncodingThread::Newest::keep))
         return;
     functions_.release_memory();
+    bricks_.release_memory();
     inputs_.release_memory();
     meshes_released_ = progress_.frames != 0 && can_make_again;
     has_surface_ = false;

@@ -11,6 +11,7 @@
 #include <optional>
 #include <thread>
 
+#include "sessions/intake/brick_reader.hpp"
 #include "sessions/intake/frame_queue.hpp"
 #include "sessions/intake/frame_stop.hpp"
 #include "sessions/intake/input_slots.hpp"
@@ -58,6 +59,8 @@ private:
     /// having called it to its end, if the session ends, or if there is no turn.
     bool in_turn(std::optional<Turns::Turn> turn, const std::function<void()>& work);
     void reconstruct(const Received& received, ReconstructedFrame& frame);
+    /// Makes the frame's surface and statistics of what has come.
+    void make_surface(InputFrame& input, ReconstructedFrame& frame);
     /// Why a frame was stopped, for its stream.
     [[noreturn]] void throw_stopped(std::uint64_t index) const;
     /// Works from here on, until rest(). Returns its turn; none if the session ends.
@@ -83,6 +86,7 @@ private:
     EncodingThread& encoding_;
     FrameStop& stop_;
 
+    BrickReader bricks_;
     ShownParticles particles_;
     /// The figures of the frame that was shown last, with which its meshes are made again.
     struct Shown {
@@ -94,6 +98,7 @@ private:
     bool meshes_released_ = false;
     ReconstructedFrame* next_mesh_ = nullptr;  ///< taken before it is needed
     bool has_surface_ = false;                 ///< of a frame, so that it can be emitted again
+    bool has_finished_bricks_ = false;         ///< in place of a surface
     std::array<bool, 2> capped_{};             ///< whether that was done at levels 1 and 2
     bool may_have_more_memory_ = false;        ///< whether a turn that leads would give it more than this one
     std::shared_ptr<Upload> failed_;           ///< its frames that follow are dropped

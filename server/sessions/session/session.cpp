@@ -19,6 +19,22 @@
 
 namespace meniscus::server {
 
+namespace {
+
+bool needs_particles(const WatchOptions& options) {
+    return !options.wants_meshes() || options.format.max_level != 3;
+}
+
+Refusal needs_particles(const std::string& session) {
+    return {
+        Refusal::Kind::failed_precondition,
+        fmt::format("the surfaces of session {} are made elsewhere: it has no particles, and nothing that is made of "
+                    "them anew, as a surface of max_level 1 or 2",
+                    session)};
+}
+
+}  // namespace
+
 Session::Session(SessionIdentity identity, const Settings& settings, const Limits& limits,
                  ReconstructFunctions functions, SharedResources shared, SessionObservers observers)
     : context_{.identity = std::move(identity),
@@ -78,6 +94,7 @@ std::string Session::instance() const {
 void Session::open_upload(const std::shared_ptr<Upload>& upload) {
     std::shared_ptr<Upload> before;
     std::vector<InputFrame*> withdrawn;
+    std::vector<std::shared_ptr<Watch>> disappointed;
     {
         const std::lock_guard lock(mutex_);
         if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id()));
@@ -86,6 +103,7 @@ void Session::open_upload(const std::shared_ptr<Upload>& upload) {
         if (upload_ && upload->run != run_)
             throw Refusal(Refusal::Kind::failed_precondition,
                           fmt::format("another stream uploads to session {}", id()));
+        disappointed = take_frames_of(upload->options.frames);
         before = upload_;
         orphaned_ = false;
         awaited_for_ = {};
@@ -97,11 +115,30 @@ void Session::open_upload(const std::shared_ptr<Upload>& upload) {
         if (before) withdrawn = received_.withdraw(*before);
     }
     for (InputFrame* input : withdrawn) inputs_.give_back(*input);
+    for (const auto& watch : disappointed) watch->finish(std::make_exception_ptr(needs_particles(id())));
     if (before)
         before->output.abort(std::make_exception_ptr(
             Refusal(Refusal::Kind::failed_precondition,
                     fmt::format("another stream has resumed run {:016x} of session {}", before->run->id, id()))));
     inputs_.lend_third();
+}
+
+std::vector<std::shared_ptr<Watch>> Session::take_frames_of(FrameKind kind) {
+    if (frame_kind_.value_or(kind) != kind)
+        throw Refusal(
+            Refusal::Kind::failed_precondition,
+            fmt::format("session {} takes frames of {}, which its first upload had, and none of {}: make another "
+                        "session for these",
+                        id(), name_of(*frame_kind_), name_of(kind)));
+    std::vector<std::shared_ptr<Watch>> disappointed;
+    if (std::exchange(frame_kind_, kind) || kind == FrameKind::particles) return disappointed;
+    disappointed = watchers_.list();
+    std::erase_if(disappointed, [](const auto& watch) { return !needs_particles(watch->options()); });
+    return disappointed;
+}
+
+void Session::require_watchable(const WatchOptions& options) const {
+    if (frame_kind_ == FrameKind::bricks && needs_particles(options)) throw needs_particles(id());
 }
 
 std::shared_ptr<Run> Session::run_of(const UploadOptions& options) const {
@@ -134,7 +171,7 @@ void Session::admit_frame(std::uint64_t index) {
 void Session::submit(std::shared_ptr<Upload> upload, InputFrame& input) {
     std::vector<InputFrame*> unused;
     // Nobody else sees the frame yet.
-    if (send_ahead_ && is_to_be_reconstructed(upload)) {
+    if (send_ahead_ && upload->options.frames == FrameKind::particles && is_to_be_reconstructed(upload)) {
         // One frame at a time is sent: not the one that this one replaces.
         if (upload->options.policy == UploadPolicy::latest) received_.sent_ahead(*upload).clear();
         input.send_ahead(send_ahead_);
@@ -219,6 +256,7 @@ std::shared_ptr<Watch> Session::open_watch(const WatchOptions& options, std::fun
     const std::lock_guard lock(mutex_);
     if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id()));
     if (draining_) throw shutting_down();
+    require_watchable(options);
     if (!options.once) {
         require_room_for(options, watcher.get(), watchers_.list(), id(), limits());
     } else if (reconstructing_.progress().frames == 0) {

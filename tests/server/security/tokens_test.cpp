@@ -331,7 +331,7 @@ TEST(Tokens, AreRefusedWithTheLineAndWithoutTheToken) {
         {"# one\nuploader \x1b[2Jada 0123456789secret\n", ":2: the name has a control character, 0x1b"},
         {"uploader ada\x7f 0123456789secret\n", ":1: the name has a control character, 0x7f"},
         {"owner ada 0123456789secret\n",
-         ":1: a line must be: ROLE NAME TOKEN; its role must be uploader, watcher or admin"},
+         ":1: a line must be: ROLE NAME TOKEN; its role must be uploader, publisher, watcher or admin"},
         {"# only\nuploader ada 56789secret\n", ":2: the token has 11 characters; it needs at least 16"},
         {"uploader 0123456789secret ada\n", ":1: the token has 3 characters"},
         {"uploader ada 0123456789secret\nadmin eve 0123456789secret\n", ":2: the token is there twice"},

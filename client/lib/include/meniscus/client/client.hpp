@@ -14,6 +14,7 @@
 #include "meniscus/client/errors.hpp"
 #include "meniscus/client/frame_statistics.hpp"
 #include "meniscus/client/particle_watcher.hpp"
+#include "meniscus/client/publisher.hpp"
 #include "meniscus/client/received_frame.hpp"
 #include "meniscus/client/recording.hpp"
 #include "meniscus/client/server_info.hpp"
@@ -51,6 +52,8 @@ public:
 
     /// The session must exist.
     Stream stream(const std::string& session_id, const StreamOptions& options = {});
+    /// The session must exist, and have had no particles.
+    Publisher publish(const std::string& session_id, const PublisherOptions& options = {});
     Watcher watch(const std::string& session_id, const WatchOptions& options = {});
     /// The session's newest mesh; none if no frame has come yet. Throws InvalidInput, LimitExceeded where too many
     /// snapshots are under way, or ServerError.

@@ -44,6 +44,7 @@ struct ServerInfo {
     std::uint64_t max_message_bytes = 0;
     std::vector<std::uint32_t> codecs;  ///< numbers of those that the server encodes with; codec.hpp names them
     bool publishes = false;             ///< whether sessions may be published, see SessionOptions
+    bool checks_published = false;      ///< whether the surfaces of Publisher are refused unless they are closed
 
     /// The limits, in the order in which people read them, with their labels. On the wire they have no max_ and min_.
     template <class Visit>

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "meniscus/client/particle_watcher.hpp"
+#include "meniscus/client/publisher.hpp"
 #include "meniscus/client/session_info.hpp"
 #include "meniscus/client/stream.hpp"
 #include "meniscus/client/watcher.hpp"
@@ -55,6 +56,8 @@ public:
     /// Opens a stream as Client::stream() does. An owned ephemeral session that has ended meanwhile, since no stream
     /// was open, is created again.
     Stream stream(const StreamOptions& options = {});
+    /// Opens a publisher as Client::publish() does, and creates the session again as stream() does.
+    Publisher publish(const PublisherOptions& options = {});
     /// Open watchers as Client's functions do.
     Watcher watch(const WatchOptions& options = {});
     ParticleWatcher watch_particles(const ParticleWatchOptions& options = {});

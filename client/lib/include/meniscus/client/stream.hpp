@@ -179,6 +179,7 @@ public:
 
 private:
     friend class Client;
+    friend class Publisher;
     friend class Session;
     class Impl;
     explicit Stream(std::shared_ptr<Impl> impl);
