@@ -7,6 +7,7 @@ const std::vector<Target>& targets() {
         {"stream_requests", stream_requests, stream_request_seeds},
         {"frame_chunks", frame_chunks, frame_chunk_seeds},
         {"frame_parts", frame_parts, frame_parts_seeds},
+        {"finished_bricks", finished_bricks, finished_bricks_seeds},
         {"watch_requests", watch_requests, watch_request_seeds},
         {"stream_responses", stream_responses, stream_response_seeds},
         {"watch_responses", watch_responses, watch_response_seeds},

@@ -25,6 +25,9 @@ Seeds frame_chunk_seeds();
 /// FrameBegin, and which part sends its next bytes (1 byte) and how many (2 bytes), again and again.
 void frame_parts(Bytes bytes);
 Seeds frame_parts_seeds();
+/// Choices and parts less 1 (1 byte each), a PublishBegin for each part (length: 2 bytes), then what the parts send.
+void finished_bricks(Bytes bytes);
+Seeds finished_bricks_seeds();
 
 /// The request of a Watch call.
 void watch_requests(Bytes bytes);
