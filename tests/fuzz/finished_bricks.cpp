@@ -4,6 +4,7 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "conversion/attribute_conversion.hpp"
@@ -128,13 +129,12 @@ Seeds finished_bricks_seeds() {
                         content[b % count] += *message;
                     }
                 }
-                std::string all_content;
-                for (std::size_t p = 0; p < count; ++p) {
-                    begins[p].set_byte_count(content[p].size());
-                    all_content += content[p];
-                }
-                seeds.push_back(number_bytes(attributes ? 3 : 2, 1) +
-                                number_bytes(static_cast<std::uint32_t>(count - 1), 1) + join(begins) + all_content);
+                std::string seed = number_bytes(attributes ? 3 : 2, 1);
+                seed += number_bytes(static_cast<std::uint32_t>(count - 1), 1);
+                for (std::size_t p = 0; p < count; ++p) begins[p].set_byte_count(content[p].size());
+                seed += join(begins);
+                for (const std::string& of_part : content) seed += of_part;
+                seeds.push_back(std::move(seed));
             }
     return seeds;
 }

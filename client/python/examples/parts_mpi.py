@@ -9,7 +9,7 @@ import secrets
 import sys
 
 import numpy as np
-from mpi4py import MPI  # type: ignore
+from mpi4py import MPI
 
 import meniscus
 

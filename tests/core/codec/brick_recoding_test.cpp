@@ -42,7 +42,7 @@ std::vector<CodedAttribute> all_attributes(const Mesh& mesh, int bits) {
 }
 
 EncodedBrick recoded(const Mesh& mesh, std::size_t brick, const CodingOptions& from, const CodingOptions& to) {
-    BrickScratch scratch;
+    static BrickScratch scratch;
     return recode_brick(encode_brick(mesh, brick, from), mesh.offset_bits, from.attributes, to, scratch);
 }
 
