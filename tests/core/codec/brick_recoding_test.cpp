@@ -18,7 +18,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::array lattice_codecs{Codec::lattice_packed, Codec::lattice_entropy};
+constexpr std::array lattice_profiles{Codec::lattice_packed, Codec::lattice_entropy};
 
 /// Meshes of every input, with attributes.
 const std::vector<Mesh>& meshes() {
@@ -50,8 +50,8 @@ EncodedBrick recoded(const Mesh& mesh, std::size_t brick, const CodingOptions& f
 
 TEST(BrickRecoding, GivesTheBytesOfTheMeshInEitherProfile) {
     for (const Mesh& mesh : meshes())
-        for (const Codec from : lattice_codecs)
-            for (const Codec to : lattice_codecs) {
+        for (const Codec from : lattice_profiles)
+            for (const Codec to : lattice_profiles) {
                 const CodingOptions source{.codec = from, .attributes = all_attributes(mesh, 0)};
                 CodingOptions target{.codec = to, .attributes = all_attributes(mesh, 8)};
                 std::ranges::reverse(target.attributes);
@@ -70,8 +70,8 @@ TEST(BrickRecoding, GivesTheBytesOfTheMeshInEitherProfile) {
 
 TEST(BrickRecoding, RoundsPositionsAsTheMeshIsRounded) {
     for (const Mesh& mesh : meshes())
-        for (const Codec from : lattice_codecs)
-            for (const Codec to : lattice_codecs)
+        for (const Codec from : lattice_profiles)
+            for (const Codec to : lattice_profiles)
                 for (std::size_t b = 0; b < mesh.bricks.size(); ++b) {
                     const CodingOptions target{.normal_bits = 0, .position_bits = 3, .codec = to};
                     ASSERT_EQ(recoded(mesh, b, {.codec = from}, target).data, encode_brick(mesh, b, target).data);
@@ -82,7 +82,7 @@ TEST(BrickRecoding, KeepsTheMeshInDraco) {
     if (!test::has_draco()) GTEST_SKIP();
     for (std::size_t i = 0; i < meshes().size(); ++i) {
         const Mesh& mesh = meshes()[i];
-        const Codec from = lattice_codecs[(i / 2) % lattice_codecs.size()];  // each with both modes
+        const Codec from = lattice_profiles[(i / 2) % lattice_profiles.size()];  // each with both modes
         const CodingOptions source{.codec = from, .attributes = all_attributes(mesh, 0)};
         const CodingOptions target{.attributes = source.attributes};
         std::vector<DecodedBrick> bricks;
