@@ -47,10 +47,10 @@ void read_rows(const JsonLine& line, Record& record) {
 
 }  // namespace
 
-PushAnswer read_answer(const JsonLine& line) {
+client::ReceivedFrame read_answer(const JsonLine& line) {
     if (line.find("frame") == line.end())
         throw client::ServerError("what meniscus push answers has no number of a frame");
-    PushAnswer answer;
+    client::ReceivedFrame answer;
     read(line, "frame", answer.index);
     read(line, "simulation_time", answer.simulation_time);
     read_rows<Statistics>(line, answer.statistics);

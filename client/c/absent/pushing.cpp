@@ -9,11 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "../src/frame.hpp"
 #include "../src/options.hpp"
 #include "../src/particles.hpp"
 #include "../src/result.hpp"
-#include "../src/sized_struct.hpp"
-#include "../src/statistics.hpp"
 #include "../src/timeout.hpp"
 #include "frame_bytes.hpp"
 #include "meniscus/client/errors.hpp"
@@ -41,10 +40,6 @@ struct meniscus_session {
     FrameBuffers buffers;
     std::vector<float> positions;
     std::optional<std::uint64_t> last_index;
-};
-
-struct meniscus_frame {
-    PushAnswer content;
 };
 
 namespace {
@@ -196,36 +191,11 @@ meniscus_result meniscus_session_dropped(const meniscus_session* session, uint64
     });
 }
 
-void meniscus_frame_destroy(meniscus_frame* frame) {
-    delete frame;
-}
-
-meniscus_result meniscus_frame_index(const meniscus_frame* frame, uint64_t* index) {
-    return guarded([&] {
-        required(index, "index") = required(frame, "frame").content.index;
-        return MENISCUS_OK;
-    });
-}
-
-meniscus_result meniscus_frame_simulation_time(const meniscus_frame* frame, double* seconds) {
-    return guarded([&] {
-        required(seconds, "seconds") = required(frame, "frame").content.simulation_time;
-        return MENISCUS_OK;
-    });
-}
-
 meniscus_result meniscus_frame_mesh(const meniscus_frame* frame, meniscus_mesh* mesh) {
     return guarded([&]() -> meniscus_result {
         required(frame, "frame");
         required(mesh, "mesh");
         not_through_push("meniscus_frame_mesh",
                          "a watcher in a program with it has the meshes, and so has the server's viewer");
-    });
-}
-
-meniscus_result meniscus_frame_statistics(const meniscus_frame* frame, meniscus_statistics* statistics) {
-    return guarded([&] {
-        write_struct(to_c(required(frame, "frame").content.statistics), statistics, "statistics");
-        return MENISCUS_OK;
     });
 }

@@ -1,6 +1,5 @@
 #include "frame.hpp"
 
-#include "mesh.hpp"
 #include "result.hpp"
 #include "sized_struct.hpp"
 #include "statistics.hpp"
@@ -21,17 +20,6 @@ meniscus_result meniscus_frame_index(const meniscus_frame* frame, uint64_t* inde
 meniscus_result meniscus_frame_simulation_time(const meniscus_frame* frame, double* seconds) {
     return guarded([&] {
         required(seconds, "seconds") = required(frame, "frame").content.simulation_time;
-        return MENISCUS_OK;
-    });
-}
-
-meniscus_result meniscus_frame_mesh(const meniscus_frame* frame, meniscus_mesh* mesh) {
-    return guarded([&] {
-        meniscus_mesh& filled = required(mesh, "mesh");
-        const meniscus::client::ReceivedFrame& received = required(frame, "frame").content;
-        filled.forget_arrays();
-        filled.content = {};
-        filled.content = received.mesh();
         return MENISCUS_OK;
     });
 }

@@ -1,7 +1,7 @@
 // A received frame of the C interface.
 #pragma once
 
-#include "meniscus/client/client.hpp"
+#include "meniscus/client/received_frame.hpp"
 #include "meniscus/meniscus.h"
 
 struct meniscus_frame {

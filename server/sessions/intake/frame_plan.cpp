@@ -60,27 +60,43 @@ std::string words_of(const Box& box) {
     return corner(box.min) + " to " + corner(box.max);
 }
 
-/// Throws InvalidInput if the part cannot be in one frame with the lead, whose form the frame takes.
-void require_same_form(std::span<const FramePart> parts, const FramePart& lead, const FramePart& part) {
-    const auto require_same = [&](const std::string& what, const std::string& is, const std::string& of_lead) {
+/// Throws InvalidInput where a part says something else of its frame than the lead, whose form the frame takes.
+class SameInAllParts {
+public:
+    SameInAllParts(std::span<const FramePart> parts, const FramePart& lead, const FramePart& part)
+        : parts_(parts), lead_(lead), part_(part) {}
+
+    void require(const std::string& what, const std::string& is, const std::string& of_lead) const {
         if (is != of_lead)
             throw InvalidInput(
-                fmt::format("frame {}: {} of part {} is {}, and {} in part {}; in all parts of a frame "
-                            "it is the same",
-                            part.index, what, &part - parts.data(), is, of_lead, &lead - parts.data()));
-    };
-    require_same("simulation_time", words_of(part.simulation_time), words_of(lead.simulation_time));
+                fmt::format("frame {}: {} of part {} is {}, and {} in part {}; in all parts of a frame it is the same",
+                            part_.index, what, &part_ - parts_.data(), is, of_lead, &lead_ - parts_.data()));
+    }
+    void require_time() const {
+        require("simulation_time", words_of(part_.simulation_time), words_of(lead_.simulation_time));
+    }
+
+private:
+    const std::span<const FramePart> parts_;
+    const FramePart& lead_;
+    const FramePart& part_;
+};
+
+/// Throws InvalidInput if the part cannot be in one frame with the lead.
+void require_same_form(std::span<const FramePart> parts, const FramePart& lead, const FramePart& part) {
+    const SameInAllParts same(parts, lead, part);
+    same.require_time();
     // A part without particles has no form.
     if (part.particle_count == 0) return;
     const auto positions = [](const FramePart& of) { return of.layout.quantized ? "uint16" : "float32"; };
-    require_same("array 'position'", positions(part), positions(lead));
+    same.require("array 'position'", positions(part), positions(lead));
     if (part.layout.quantized)
-        require_same("quantization_box", words_of(part.quantization_box), words_of(lead.quantization_box));
+        same.require("quantization_box", words_of(part.quantization_box), words_of(lead.quantization_box));
     const auto levels = [](const FramePart& of) { return of.layout.has_levels ? "there" : "missing"; };
-    require_same("array 'level'", levels(part), levels(lead));
+    same.require("array 'level'", levels(part), levels(lead));
     for (const auto* arrays : {&part.kept, &lead.kept})
         for (const FurtherArray& array : *arrays)
-            require_same(fmt::format("array '{}'", array.name), words_of(find_array(part.kept, array.name)),
+            same.require(fmt::format("array '{}'", array.name), words_of(find_array(part.kept, array.name)),
                          words_of(find_array(lead.kept, array.name)));
 }
 
@@ -104,11 +120,7 @@ std::vector<std::vector<FramePiece>> begin_brick_frame(std::span<const FramePart
     std::vector<std::vector<FramePiece>> pieces;
     std::size_t bytes = 0;
     for (const FramePart& part : parts) {
-        if (words_of(part.simulation_time) != words_of(lead.simulation_time))
-            throw InvalidInput(
-                fmt::format("frame {}: simulation_time of part {} is {}, and {} in part 0; in all parts of a "
-                            "frame it is the same",
-                            part.index, bricks.size(), part.simulation_time, lead.simulation_time));
+        SameInAllParts(parts, lead, part).require_time();
         bricks.push_back(*part.bricks);
         const std::size_t more = bricks.back().bytes;
         if (more > limit - bytes)

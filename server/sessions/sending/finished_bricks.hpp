@@ -35,6 +35,7 @@ public:
 private:
     const FinishedBricks& finished_;
     const CodingOptions& options_;
+    std::vector<CodedAttribute> forms_;  ///< of the bricks and of what they become, which content hashes hold
     bool is_as_it_came_ = false;
 };
 

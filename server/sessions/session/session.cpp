@@ -19,22 +19,6 @@
 
 namespace meniscus::server {
 
-namespace {
-
-bool needs_particles(const WatchOptions& options) {
-    return !options.wants_meshes() || options.format.max_level != 3;
-}
-
-Refusal needs_particles(const std::string& session) {
-    return {
-        Refusal::Kind::failed_precondition,
-        fmt::format("the surfaces of session {} are made elsewhere: it has no particles, and nothing that is made of "
-                    "them anew, as a surface of max_level 1 or 2",
-                    session)};
-}
-
-}  // namespace
-
 Session::Session(SessionIdentity identity, const Settings& settings, const Limits& limits,
                  ReconstructFunctions functions, SharedResources shared, SessionObservers observers)
     : context_{.identity = std::move(identity),
@@ -103,7 +87,9 @@ void Session::open_upload(const std::shared_ptr<Upload>& upload) {
         if (upload_ && upload->run != run_)
             throw Refusal(Refusal::Kind::failed_precondition,
                           fmt::format("another stream uploads to session {}", id()));
-        disappointed = take_frames_of(upload->options.frames);
+        accepted_.accept(upload->options.frames, id());
+        disappointed = watchers_.list();
+        std::erase_if(disappointed, [this](const auto& watch) { return accepted_.can_show(watch->options()); });
         before = upload_;
         orphaned_ = false;
         awaited_for_ = {};
@@ -115,30 +101,13 @@ void Session::open_upload(const std::shared_ptr<Upload>& upload) {
         if (before) withdrawn = received_.withdraw(*before);
     }
     for (InputFrame* input : withdrawn) inputs_.give_back(*input);
-    for (const auto& watch : disappointed) watch->finish(std::make_exception_ptr(needs_particles(id())));
+    for (const auto& watch : disappointed)
+        watch->finish(std::make_exception_ptr(AcceptedFrames::needs_particles(id())));
     if (before)
         before->output.abort(std::make_exception_ptr(
             Refusal(Refusal::Kind::failed_precondition,
                     fmt::format("another stream has resumed run {:016x} of session {}", before->run->id, id()))));
     inputs_.lend_third();
-}
-
-std::vector<std::shared_ptr<Watch>> Session::take_frames_of(FrameKind kind) {
-    if (frame_kind_.value_or(kind) != kind)
-        throw Refusal(
-            Refusal::Kind::failed_precondition,
-            fmt::format("session {} takes frames of {}, which its first upload had, and none of {}: make another "
-                        "session for these",
-                        id(), name_of(*frame_kind_), name_of(kind)));
-    std::vector<std::shared_ptr<Watch>> disappointed;
-    if (std::exchange(frame_kind_, kind) || kind == FrameKind::particles) return disappointed;
-    disappointed = watchers_.list();
-    std::erase_if(disappointed, [](const auto& watch) { return !needs_particles(watch->options()); });
-    return disappointed;
-}
-
-void Session::require_watchable(const WatchOptions& options) const {
-    if (frame_kind_ == FrameKind::bricks && needs_particles(options)) throw needs_particles(id());
 }
 
 std::shared_ptr<Run> Session::run_of(const UploadOptions& options) const {
@@ -256,7 +225,7 @@ std::shared_ptr<Watch> Session::open_watch(const WatchOptions& options, std::fun
     const std::lock_guard lock(mutex_);
     if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id()));
     if (draining_) throw shutting_down();
-    require_watchable(options);
+    if (!accepted_.can_show(options)) throw AcceptedFrames::needs_particles(id());
     if (!options.once) {
         require_room_for(options, watcher.get(), watchers_.list(), id(), limits());
     } else if (reconstructing_.progress().frames == 0) {

@@ -22,6 +22,7 @@
 #include "sessions/intake/upload.hpp"
 #include "sessions/limits/frame_rate.hpp"
 #include "sessions/sending/frame_statistics.hpp"
+#include "sessions/session/accepted_frames.hpp"
 #include "sessions/session/encoding_thread.hpp"
 #include "sessions/session/joint_uploads.hpp"
 #include "sessions/session/reconstruct_functions.hpp"
@@ -149,11 +150,6 @@ private:
 
     // With the lock held.
 
-    /// The frames of this kind are all that the session takes from here on. Returns the watchers that this leaves
-    /// without what they ask for. Throws Refusal if it takes others.
-    std::vector<std::shared_ptr<Watch>> take_frames_of(FrameKind kind);
-    /// Throws Refusal for what needs particles in a session of finished bricks.
-    void require_watchable(const WatchOptions& options) const;
     std::shared_ptr<Run> run_of(const UploadOptions& options) const;
     /// Whether a stream sends, or waits for its answers.
     bool has_stream() const;
@@ -197,7 +193,7 @@ private:
     std::chrono::steady_clock::time_point last_used_ = std::chrono::steady_clock::now();
     /// By a stream or a watcher: calls that ask about an orphan do not keep it.
     std::chrono::steady_clock::time_point last_attended_ = last_used_;
-    std::optional<FrameKind> frame_kind_;              ///< none before the first stream
+    AcceptedFrames accepted_;
     std::shared_ptr<Run> run_;                         ///< of the stream opened last
     std::uint64_t runs_ = 0;                           ///< that have begun
     std::shared_ptr<Upload> upload_;                   ///< the one that sends

@@ -1,4 +1,4 @@
-// Who may publish a surface that the server has not made.
+// The role whose token publishes surfaces that were made elsewhere.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -7,10 +7,10 @@
 #include <cstddef>
 #include <deque>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "every_order.hpp"
 #include "sessions/limits/bytes_in_flight.hpp"
 
 namespace meniscus::server {
@@ -54,23 +54,6 @@ public:
     SmallWorldOfParts(std::array<std::size_t, frame_count> sizes, std::uint32_t sessions)
         : sizes_(sizes), sessions_(sessions) {}
 
-    /// Follows all orders. Whether all frames can always come in.
-    bool explore() {
-        std::vector<std::string> open{""};
-        while (!open.empty()) {
-            const std::string path = std::move(open.back());
-            open.pop_back();
-            const auto world = after(path);
-            if (!seen_.insert(key_of(*world, path)).second) continue;
-            const std::string events = events_in(*world, path);
-            if (world->broken || (events.empty() && !all_are_gone(*world))) return false;
-            for (const char event : events) open.push_back(path + event);
-        }
-        return true;
-    }
-    std::size_t states() const { return seen_.size(); }
-
-private:
     enum class Stage { idle, comes, gone };
     struct World {
         explicit World(std::uint32_t sessions)
@@ -157,9 +140,9 @@ private:
         return key + std::string(path.size() - (last == std::string::npos ? 0 : last + 1), 't');
     }
 
+private:
     const std::array<std::size_t, frame_count> sizes_;
     const std::uint32_t sessions_;
-    std::set<std::string> seen_;
 };
 
 TEST(JointFramesInASmallWorld, AllComeInWhicheverPartsWaitForBytesOfOthers) {
@@ -167,9 +150,10 @@ TEST(JointFramesInASmallWorld, AllComeInWhicheverPartsWaitForBytesOfOthers) {
     for (const std::uint32_t sessions : {0U, 1U})  // no shares; one session, with a share of one byte
         for (std::size_t a = 2; a <= limit; ++a)
             for (std::size_t b = 1; b <= a; ++b) {
-                SmallWorldOfParts world({a, b, 1}, sessions);
-                EXPECT_TRUE(world.explore()) << a << b << "1 of 4 bytes, " << sessions << " shares";
-                states += world.states();
+                const SmallWorldOfParts world({a, b, 1}, sessions);
+                const test::Explored explored = test::explore(world);
+                EXPECT_TRUE(explored.all_can_come) << a << b << "1 of 4 bytes, " << sessions << " shares";
+                states += explored.states;
             }
     EXPECT_GT(states, 10'000U);
 }
