@@ -1,4 +1,4 @@
-// bricks_sha256: a sum over bricks, whatever their order, and whoever has which.
+// bricks_sha256: a sum over bricks, in any order, however these are shared out.
 #include <gtest/gtest.h>
 
 #include <algorithm>
