@@ -75,8 +75,7 @@ public:
     __device__ void adjust_levels() {
         for (bool has_finer = true;;) {
             if (has_finer) balance();
-            // Where threads are left over, six share the twelve edges of a word's cells.
-            if (places.words() * edge_groups <= 2 * team.threads())
+            if (can_share_edges(places.words(), team.threads()))
                 promote<edge_groups>();
             else
                 promote<1>();
@@ -88,7 +87,14 @@ public:
         }
     }
 
+    /// Whether one block sweeps over so many words no slower than the grid, which waits for itself at each search.
+    __device__ static bool suit_one_block(std::uint64_t words) { return can_share_edges(words, block_threads); }
+
 private:
+    /// Whether threads are left over, so that six share the twelve edges of a word's cells.
+    __device__ static bool can_share_edges(std::uint64_t words, std::uint64_t threads) {
+        return words * edge_groups <= 2 * threads;
+    }
     /// The number of cells that this search has found, or the one `later` searches after it.
     __device__ volatile std::uint32_t* count(std::uint32_t later = 0) const {
         return team.is_alone() ? &state_.counts->found_alone[(searches_alone_ + later) % 3]

@@ -76,11 +76,13 @@ public:
         std::uint32_t found = 0;
         if (sweeps_.team.has_this_thread()) {
             const std::uint32_t search = sweeps_.search();
+            // Before any thread marks others: all must choose the same team by it.
+            const std::uint64_t words = sweeps_.places.words();
             test_faces(true);
             test_stale_cells(true);
             found = sweeps_.end_search();
             if (found == 0 && !sweeps_.team.is_alone()) return false;
-            if (found != 0) raise_found(found, search);
+            if (found != 0) raise_found(found, search, words);
             if (sweeps_.team.is_first_thread()) state_.counts->is_settled = found == 0 ? 1 : 0;
         }
         Team::grid().wait();
@@ -123,8 +125,10 @@ private:
         sweeps_.team.each_part<CellFace::count>(
             stale_count_, [&](std::uint64_t i, unsigned face) { test(sweeps_.places[i], CellFace(face), joins); });
     }
-    __device__ void raise_found(std::uint32_t found, std::uint32_t search) {
-        sweeps_.team = sweeps_.team.narrowed_to(std::uint64_t{neighbor_slots} * found, 4);
+    /// words: number of words that hold stale cells, around all of which the sweeps look however few cells go up.
+    __device__ void raise_found(std::uint32_t found, std::uint32_t search, std::uint64_t words) {
+        if (sweeps_.suit_one_block(words))
+            sweeps_.team = sweeps_.team.narrowed_to(std::uint64_t{neighbor_slots} * found, 4);
         if (!sweeps_.team.has_this_thread()) return;
         // All have read the last round's list.
         if (sweeps_.team.is_first_thread()) state_.counts->listed[static_cast<int>(List::later_round)] = 0;
