@@ -63,24 +63,75 @@ struct CellRows {
 /// Parts of a brick. One thread block for a whole brick would keep the device waiting for the fullest one.
 constexpr std::uint32_t parts_of_brick = 8;
 
-/// Calls visit(place, part) for all parts of the bricks, each by all threads of one thread block of the grid.
-template <class Visit>
-__device__ void each_part_of_bricks(const PackedPlace* places, std::uint32_t count, const Visit& visit) {
-    for (std::uint64_t i = blockIdx.x; i < std::uint64_t{parts_of_brick} * count; i += gridDim.x)
-        visit(places[i / parts_of_brick], static_cast<std::uint32_t>(i % parts_of_brick));
+/// The blocks of a part of a brick that a warp's lanes have, neighboring ones.
+class WarpBlocks {
+public:
+    /// first: of the warp, counted from the brick's.
+    __device__ WarpBlocks(const LatticeOnDevice& mesh, const KeptBrick& brick, std::uint32_t first)
+        : mesh_(mesh), first_(brick.first + first), exists_(first + lane_index() < brick.blocks) {}
+
+    __device__ bool exists() const { return exists_; }
+    __device__ const LatticeBlock& block() const { return mesh_.blocks[first_ + lane_index()]; }
+    __device__ const KeptBlock& kept() const { return mesh_.kept[first_ + lane_index()]; }
+
+    /// Calls visit(exists, kept block, n, vertex) for the vertices that the brick's cells have in these blocks: the
+    /// n-th of a block, a lane for each, in their order. All lanes call it together, some for none.
+    template <class Visit>
+    __device__ void each_vertex(const Visit& visit) const {
+        std::uint32_t total = 0;
+        const std::uint32_t below =
+            sum_of_lanes_below(exists_ ? static_cast<std::uint32_t>(kept().edges.count()) : 0, total);
+        for (std::uint32_t begin = 0; begin < total; begin += warp_threads) {
+            const std::uint32_t i = begin + lane_index();
+            const bool exists = i < total;
+            const unsigned lane = lane_with(exists ? i : total - 1, below);
+            const std::uint32_t n = i - __shfl_sync(all_lanes, below, static_cast<int>(lane));
+            const LatticeBlock& block = mesh_.blocks[first_ + lane];
+            const KeptBlock& kept = mesh_.kept[first_ + lane];
+            BrickVertex vertex{};
+            if (exists) vertex = nth_brick_vertex(block.edges, block.first_vertex, kept.edges, n);
+            visit(exists, kept, n, vertex);
+        }
+    }
+
+private:
+    const LatticeOnDevice& mesh_;
+    std::uint32_t first_;
+    bool exists_;
+};
+
+/// The lanes of a warp write values of up to 32 bits among bits that are zero before. The places ascend from lane to
+/// lane; the first lane of a word writes for all. exists: whether the lane has a value.
+__device__ void write_together(std::byte* brick, bool exists, std::uint64_t bit, std::uint64_t value, int bits) {
+    const std::uint32_t word = exists ? static_cast<std::uint32_t>(bit / 64) : ~0U;
+    const auto filled = static_cast<int>(bit % 64);
+    const std::uint64_t beyond = exists && filled + bits > 64 ? value >> (64 - filled) : 0;
+    std::uint64_t here = exists ? value << filled : 0;
+    for (unsigned distance = 1; distance < warp_threads; distance *= 2) {
+        const unsigned from = lane_index() + distance;
+        const std::uint64_t other = __shfl_sync(all_lanes, here, static_cast<int>(from % warp_threads));
+        const std::uint32_t its_word = __shfl_sync(all_lanes, word, static_cast<int>(from % warp_threads));
+        if (from < warp_threads && its_word == word) here |= other;
+    }
+    const std::uint32_t before = __shfl_up_sync(all_lanes, word, 1);
+    auto* const words = reinterpret_cast<Word*>(brick);
+    if (here != 0 && (lane_index() == 0 || before != word)) atomicOr(words + word, Word{here});
+    if (beyond != 0) atomicOr(words + word + 1, Word{beyond});
 }
 
-/// Calls visit(block, kept block) for those of a part of a brick, neighboring ones in neighboring threads.
+/// Calls visit(WarpBlocks) for the blocks of a part of a brick, by all threads of one thread block.
 template <class Visit>
-__device__ void for_each_block(const LatticeOnDevice& mesh, const KeptBrick& brick, std::uint32_t part,
-                               std::uint32_t parts, const Visit& visit) {
-    for (std::uint32_t i = part * block_threads + threadIdx.x; i < brick.blocks; i += parts * block_threads)
-        visit(mesh.blocks[brick.first + i], mesh.kept[brick.first + i]);
+__device__ void each_warps_blocks(const LatticeOnDevice& mesh, const KeptBrick& brick, std::uint32_t part,
+                                  const Visit& visit) {
+    const std::uint32_t own = warp_threads * same_in_all_lanes(warp_in_block());
+    for (std::uint32_t first = part * block_threads + own; first < brick.blocks;
+         first += parts_of_brick * block_threads)
+        visit(WarpBlocks(mesh, brick, first));
 }
 
-__device__ void write_block(const LatticeOnDevice& mesh, const PackedForm& form, const PackedCounts& counts,
-                            const PackedPlaces& fields, const LatticeBlock& block, const KeptBlock& kept,
-                            std::byte* out) {
+/// All of a block but the offsets and normals of its vertices.
+__device__ void write_block(const PackedForm& form, const PackedCounts& counts, const PackedPlaces& fields,
+                            const LatticeBlock& block, const KeptBlock& kept, std::byte* out) {
     if (block.level != 0 && !counts.has_one_level)
         BitsAmongOthers(out, fields.levels + level_bits * std::uint64_t{kept.before.cells})
             .put(block.level - 1U, level_bits);
@@ -93,21 +144,32 @@ __device__ void write_block(const LatticeOnDevice& mesh, const PackedForm& form,
         for (std::uint64_t left = kept.outer_faces; left != 0; left &= left - 1)
             bits.put(block.coarser >> lowest_bit(left) & 1, 1);
     }
-    const std::uint64_t before = kept.before.vertices;
-    {
-        BitsAmongOthers bits(
-            out, fields.edges + kept.before.middles + static_cast<std::uint64_t>(form.offset_bits) * before);
+    if ((kept.middles | kept.quarters) != 0) {
+        BitsAmongOthers bits(out, fields.edges + kept.before.middles +
+                                      static_cast<std::uint64_t>(form.offset_bits) * kept.before.vertices);
         put_signs(block.inside, kept.middles, bits);
         put_signs(block.inside, kept.quarters, bits);
-        for_each_brick_vertex(block.edges, block.first_vertex, kept.edges, [&](int axis, std::uint32_t vertex) {
-            bits.put(edge_offset(mesh.vertices[vertex], axis, mesh.offset_bits, form.offset_bits), form.offset_bits);
-        });
     }
-    if (form.normal_bits == 0) return;
-    const Octahedron octahedron(form.normal_bits);
-    BitsAmongOthers bits(out, fields.normals + static_cast<std::uint64_t>(2 * form.normal_bits) * before);
-    for_each_brick_vertex(block.edges, block.first_vertex, kept.edges, [&](int, std::uint32_t vertex) {
-        put_normal(octahedron.code(octahedron.point(mesh.normals[vertex])), form.normal_bits, bits);
+}
+
+__device__ void write_vertices(const LatticeOnDevice& mesh, const PackedForm& form, const PackedPlaces& fields,
+                               const WarpBlocks& blocks, std::byte* out) {
+    const Octahedron octahedron(form.normal_bits != 0 ? form.normal_bits : 2);
+    blocks.each_vertex([&](bool exists, const KeptBlock& kept, std::uint32_t n, const BrickVertex& vertex) {
+        const std::uint64_t number = std::uint64_t{kept.before.vertices} + n;
+        const std::uint64_t middles =
+            kept.before.middles + static_cast<std::uint64_t>(popcount(kept.middles) + popcount(kept.quarters));
+        // Both loads come before what waits for the first.
+        const LatticePosition position = exists ? mesh.vertices[vertex.number] : LatticePosition{};
+        const Normal normal = exists && form.normal_bits != 0 ? mesh.normals[vertex.number] : Normal{};
+        const std::uint64_t offset = edge_offset(position, vertex.axis, mesh.offset_bits, form.offset_bits);
+        write_together(out, exists, fields.edges + middles + static_cast<std::uint64_t>(form.offset_bits) * number,
+                       offset, form.offset_bits);
+        if (form.normal_bits == 0) return;
+        const std::uint32_t code = octahedron.code(octahedron.point(normal));
+        write_together(out, exists, fields.normals + static_cast<std::uint64_t>(2 * form.normal_bits) * number,
+                       std::uint64_t{code & 0xFFFF} | std::uint64_t{code >> 16} << form.normal_bits,
+                       2 * form.normal_bits);
     });
 }
 
@@ -116,11 +178,12 @@ __device__ void write_begin(const LatticeOnDevice& mesh, const PackedForm& form,
                             const PackedCounts& counts, const PackedPlaces& fields, CellRows& rows, std::byte* out) {
     rows.row[threadIdx.x] = 0;
     __syncthreads();
-    for_each_block(mesh, brick, 0, 1, [&](const LatticeBlock& block, const KeptBlock&) {
-        if (block.level == 0) return;
+    for (std::uint32_t i = threadIdx.x; i < brick.blocks; i += block_threads) {
+        const LatticeBlock& block = mesh.blocks[brick.first + i];
+        if (block.level == 0) continue;
         const Int3 at = closed_coordinate(block.place);
         atomicOr(&rows.row[at.y + brick_size * at.z], 1U << at.x);
-    });
+    }
     __syncthreads();
     rows.write(out, fields.cells);
     if (threadIdx.x == 0) {
@@ -134,20 +197,30 @@ __device__ void write_begin(const LatticeOnDevice& mesh, const PackedForm& form,
     __syncthreads();
 }
 
-__global__ void __launch_bounds__(block_threads)
+/// What each brick has once comes first, since a thread block looks at the whole brick for it. Without a wanted number
+/// of blocks the compiler takes 48 registers and spills.
+__global__ void __launch_bounds__(block_threads, 4)
     write_bricks(const LatticeOnDevice mesh, const PackedForm form, const PackedPlace* places, std::uint32_t count,
                  std::byte* all) {
     __shared__ CellRows rows;
-    each_part_of_bricks(places, count, [&](const PackedPlace& place, std::uint32_t part) {
+    for (std::uint64_t i = blockIdx.x; i < (1 + std::uint64_t{parts_of_brick}) * count; i += gridDim.x) {
+        const bool is_begin = i < count;
+        const PackedPlace place = places[is_begin ? i : (i - count) / parts_of_brick];
         const KeptBrick brick = mesh.bricks[place.brick];
         const PackedCounts counts = packed_counts(brick);
         const PackedPlaces fields(counts, form.offset_bits, form.normal_bits);
         std::byte* const out = all + place.at;
-        if (part == 0) write_begin(mesh, form, brick, counts, fields, rows, out);
-        for_each_block(mesh, brick, part, parts_of_brick, [&](const LatticeBlock& block, const KeptBlock& kept) {
-            write_block(mesh, form, counts, fields, block, kept, out);
-        });
-    });
+        if (is_begin) {
+            write_begin(mesh, form, brick, counts, fields, rows, out);
+            continue;
+        }
+        each_warps_blocks(mesh, brick, static_cast<std::uint32_t>((i - count) % parts_of_brick),
+                          [&](const WarpBlocks& blocks) {
+                              if (blocks.exists())
+                                  write_block(form, counts, fields, blocks.block(), blocks.kept(), out);
+                              write_vertices(mesh, form, fields, blocks, out);
+                          });
+    }
 }
 
 __device__ void write_value(const AttributeOnDevice& attribute, std::uint32_t vertex, BitsAmongOthers& bits) {
@@ -166,18 +239,21 @@ __global__ void __launch_bounds__(block_threads, 4)
     write_attribute(const LatticeOnDevice mesh, const PackedForm form,
                     const __grid_constant__ AttributeOnDevice attribute, std::uint32_t bytes_before,
                     const PackedPlace* places, std::uint32_t count, std::byte* all) {
-    each_part_of_bricks(places, count, [&](const PackedPlace& place, std::uint32_t part) {
+    for (std::uint64_t i = blockIdx.x; i < std::uint64_t{parts_of_brick} * count; i += gridDim.x) {
+        const PackedPlace place = places[i / parts_of_brick];
         const KeptBrick brick = mesh.bricks[place.brick];
         const PackedPlaces fields(packed_counts(brick), form.offset_bits, form.normal_bits);
         const std::uint64_t first =
             fields.attributes + 8 * std::uint64_t{bytes_before} * std::uint64_t{brick.totals.vertices};
-        for_each_block(mesh, brick, part, parts_of_brick, [&](const LatticeBlock& block, const KeptBlock& kept) {
-            BitsAmongOthers bits(all + place.at,
-                                 first + 8 * std::uint64_t{attribute.coded_bytes} * kept.before.vertices);
-            for_each_brick_vertex(block.edges, block.first_vertex, kept.edges,
-                                  [&](int, std::uint32_t vertex) { write_value(attribute, vertex, bits); });
+        each_warps_blocks(mesh, brick, static_cast<std::uint32_t>(i % parts_of_brick), [&](const WarpBlocks& blocks) {
+            blocks.each_vertex([&](bool exists, const KeptBlock& kept, std::uint32_t n, const BrickVertex& vertex) {
+                if (!exists) return;
+                BitsAmongOthers bits(all + place.at, first + 8 * std::uint64_t{attribute.coded_bytes} *
+                                                                 (std::uint64_t{kept.before.vertices} + n));
+                write_value(attribute, vertex.number, bits);
+            });
         });
-    });
+    }
 }
 
 /// One thread block for every brick.
@@ -216,14 +292,14 @@ AttributeOnDevice::AttributeOnDevice(const CodedAttribute& form, const std::byte
 
 void pack_bricks(const LatticeOnDevice& mesh, const PackedForm& form, const PackedPlace* places, std::uint32_t count,
                  std::byte* out, const Launcher& launch) {
-    launch(std::uint64_t{parts_of_brick} * count, 1, write_bricks, mesh, form, places, count, out);
+    launch.each((1 + std::uint64_t{parts_of_brick}) * count, write_bricks, mesh, form, places, count, out);
 }
 
 void pack_attribute(const LatticeOnDevice& mesh, const PackedForm& form, const AttributeOnDevice& attribute,
                     std::uint32_t bytes_before, const PackedPlace* places, std::uint32_t count, std::byte* out,
                     const Launcher& launch) {
-    launch(std::uint64_t{parts_of_brick} * count, 1, write_attribute, mesh, form, attribute, bytes_before, places,
-           count, out);
+    launch.each(std::uint64_t{parts_of_brick} * count, write_attribute, mesh, form, attribute, bytes_before, places,
+                count, out);
 }
 
 void hash_packed_bricks(const PackedPlace* places, std::uint32_t count, const std::byte* bytes, PackedHash* hashes,

@@ -36,6 +36,13 @@ struct Launcher {
         const unsigned waves = std::max(1U, (8 + at_once / 2) / at_once);
         launch(blocks_for(elements, a_block, std::uint64_t{processors} * at_once * waves), false, kernel, arguments...);
     }
+    /// Launches a kernel with a block for each element: where they take differently long, the next begins as soon as
+    /// one has ended.
+    template <class... Parameters, class... Arguments>
+    void each(std::uint64_t elements, void (*kernel)(Parameters...), const Arguments&... arguments) const {
+        constexpr std::uint64_t largest_grid = 0x7FFF'FFFF;
+        launch(blocks_for(elements, 1, largest_grid), false, kernel, arguments...);
+    }
     /// Launches a kernel for up to `elements` elements, with no more blocks than run at once, so that it can wait for
     /// its whole grid.
     template <class... Parameters, class... Arguments>

@@ -127,4 +127,23 @@ MENISCUS_HD void for_each_brick_vertex(const std::array<BlockMask, 3>& all, std:
     }
 }
 
+/// A vertex of a brick.
+struct BrickVertex {
+    int axis;
+    std::uint32_t number;  ///< in the mesh
+};
+/// The n-th of for_each_brick_vertex(), n from 0; there are more than n.
+MENISCUS_HD inline BrickVertex nth_brick_vertex(const std::array<BlockMask, 3>& all, std::uint32_t first_vertex,
+                                                const EdgeMasks& own, std::uint32_t n) {
+    int axis = 0;
+    for (; axis < 2; ++axis) {
+        const auto of_axis = static_cast<std::uint32_t>(popcount(own.axis[axis]));
+        if (n < of_axis) break;
+        n -= of_axis;
+        first_vertex += static_cast<std::uint32_t>(popcount(all[static_cast<std::size_t>(axis)]));
+    }
+    const BlockMask before = (BlockMask{1} << nth_bit(own.axis[axis], static_cast<int>(n))) - 1;
+    return {axis, first_vertex + static_cast<std::uint32_t>(popcount(all[static_cast<std::size_t>(axis)] & before))};
+}
+
 }  // namespace meniscus
