@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "lattice/blocks.hpp"
+#include "lattice/host_device.hpp"
 
 namespace meniscus::cuda {
 
@@ -17,6 +18,15 @@ struct BrickTotals {
     std::uint32_t faces = 0;  ///< outer faces that see both signs, of cells of level 2 and 3
 
     static constexpr unsigned count = 5;
+
+    MENISCUS_HD BrickTotals& operator+=(const BrickTotals& other) {
+        signs += other.signs;
+        middles += other.middles;
+        vertices += other.vertices;
+        cells += other.cells;
+        faces += other.faces;
+        return *this;
+    }
 };
 
 /// Beside each LatticeBlock: what its brick's own cells have there.

@@ -11,16 +11,19 @@ namespace {
 /// The places of a brick that its cells' points lie in, and the levels of these cells: in shared memory.
 struct BrickPlaces {
     static constexpr unsigned border = ClosedArray<std::uint8_t>::border;
-    static constexpr unsigned words = ClosedPlaces::words;
+    /// Of 32 bits: shared memory has no atomic operation on 64, which is a loop there.
+    static constexpr unsigned words = (closed_places + 31) / 32;
     static_assert(words <= block_threads);
 
-    Counter place[words];                              ///< set of places
+    std::uint32_t place[words];                        ///< set of places
     std::uint32_t before[words];                       ///< number of places in the words before
     std::uint32_t rows[brick_size * brick_size / 32];  ///< set of rows, y + 16 z, with cells that draw
     std::uint32_t levels;
     std::uint32_t blocks;  ///< number of places
     Counter first;         ///< index of the first block
     std::uint8_t level[closed_places + 2 * border];
+    /// Counts of as many successive places as a warp has lanes; then of all places before these.
+    std::uint32_t of_warp[words][BrickTotals::count];
     BlockSums<1> one_sum;
     BlockSums<BrickTotals::count> sums;
 
@@ -34,16 +37,15 @@ struct BrickPlaces {
         level[border + static_cast<unsigned>(at)] = static_cast<std::uint8_t>(its_level);
         for (int i = 0; i < 8; ++i) {
             const auto p = static_cast<unsigned>(at + closed_steps(i));
-            atomicOr(&place[p / 64], Counter{1} << p % 64);
+            atomicOr(&place[p / 32], 1U << p % 32);
         }
         const Int3 in_brick = closed_coordinate(at);
         const auto row = static_cast<unsigned>(in_brick.y + brick_size * in_brick.z);
         atomicOr(&rows[row / 32], 1U << row % 32);
-        atomicOr(&levels, 1U << its_level);
     }
     /// Counts the places.
     __device__ void count() {
-        std::uint32_t own[1] = {threadIdx.x < words ? static_cast<std::uint32_t>(popcount(place[threadIdx.x])) : 0};
+        std::uint32_t own[1] = {threadIdx.x < words ? static_cast<std::uint32_t>(__popc(place[threadIdx.x])) : 0};
         std::uint32_t all[1];
         one_sum.sum_below(own, all);
         if (threadIdx.x < words) before[threadIdx.x] = own[0];
@@ -56,7 +58,15 @@ struct BrickPlaces {
             const unsigned middle = (low + high) / 2;
             (before[middle] <= i ? low : high) = middle;
         }
-        return static_cast<int>(64 * low) + nth_bit(place[low], static_cast<int>(i - before[low]));
+        return static_cast<int>(32 * low) + nth_bit(place[low], static_cast<int>(i - before[low]));
+    }
+    /// Sums up the counts of warps, of which there are `warps`; returns all places' in `all`.
+    __device__ void add_up(std::uint32_t warps, std::uint32_t (&all)[BrickTotals::count]) {
+        std::uint32_t own[BrickTotals::count] = {};
+        for (unsigned n = 0; threadIdx.x < warps && n < BrickTotals::count; ++n) own[n] = of_warp[threadIdx.x][n];
+        sums.sum_below(own, all);
+        for (unsigned n = 0; threadIdx.x < warps && n < BrickTotals::count; ++n) of_warp[threadIdx.x][n] = own[n];
+        __syncthreads();
     }
     __device__ LevelsAround around(int at) const {
         return LevelsAround::from(
@@ -85,6 +95,11 @@ struct ClosedBrick {
         return blocks.inside_or_none(block(at));
     }
 };
+
+/// draws(), for a cell whose triangles are counted: one that sees both signs has some.
+__device__ bool has_triangles(const State& state, std::uint32_t cell, int level) {
+    return state.triangles_before[cell].of[level - 1] != state.triangles_before[cell + 1].of[level - 1];
+}
 
 /// The faces of a cell on those of its brick that see both signs, as bits 2 axis + side.
 __device__ unsigned outer_mixed_faces(const ClosedBrick& brick, const Int3& at, int level) {
@@ -130,6 +145,25 @@ __device__ KeptBlock kept_block(const ClosedBrick& brick, const LatticeBlock& bl
     return kept;
 }
 
+__device__ BrickTotals totals_of(const std::uint32_t (&counts)[BrickTotals::count]) {
+    return {counts[0], counts[1], counts[2], counts[3], counts[4]};
+}
+
+/// The counts of the blocks that the lanes below have; those of all lanes go to `all`.
+__device__ BrickTotals counts_below(const LatticeBlock& block, const KeptBlock& kept,
+                                    std::uint32_t (&all)[BrickTotals::count]) {
+    std::uint32_t own[] = {static_cast<std::uint32_t>(popcount(kept.corners)),
+                           static_cast<std::uint32_t>(popcount(kept.middles) + popcount(kept.quarters)),
+                           static_cast<std::uint32_t>(kept.edges.count()), block.level != 0 ? 1U : 0U,
+                           static_cast<std::uint32_t>(popcount(kept.outer_faces))};
+    for (unsigned n = 0; n < BrickTotals::count; ++n) {
+        std::uint32_t total = 0;
+        own[n] = sum_of_lanes_below(own[n], total);
+        if (lane_index() == 0) all[n] = total;
+    }
+    return totals_of(own);
+}
+
 __global__ void __launch_bounds__(block_threads) keep_bricks(const __grid_constant__ State state) {
     __shared__ BrickPlaces places;
     const BlocksView blocks = state.blocks();
@@ -139,11 +173,14 @@ __global__ void __launch_bounds__(block_threads) keep_bricks(const __grid_consta
         places.clear();
         __syncthreads();
         const std::uint32_t end = b + 1 < bricks ? state.bricks[b + 1].first : blocks.count;
+        std::uint32_t levels = 0;
         for (std::uint32_t cell = state.bricks[b].first + threadIdx.x; cell < end; cell += block_threads) {
             const int level = blocks.level[cell];
-            if (level != 0 && draws(blocks, ClosedCell(blocks, cell), level))
-                places.add_cell(closed_place_of(blocks.place[cell]), level);
+            if (level == 0 || !has_triangles(state, cell, level)) continue;
+            places.add_cell(closed_place_of(blocks.place[cell]), level);
+            levels |= 1U << level;
         }
+        if (levels != 0) atomicOr(&places.levels, levels);
         __syncthreads();
         places.count();
         if (threadIdx.x == 0)
@@ -151,11 +188,10 @@ __global__ void __launch_bounds__(block_threads) keep_bricks(const __grid_consta
                 atomicAdd(&state.counts->needed[static_cast<int>(Resource::lattice_blocks)], Counter{places.blocks});
         __syncthreads();
         const Counter first = places.first;
-        const std::uint32_t count = places.blocks;
-        const bool has_room = first + count <= state.capacity[Resource::lattice_blocks];
-        std::uint32_t done[BrickTotals::count] = {};
-        for (std::uint32_t begin = 0; has_room && begin < count; begin += block_threads) {
-            const std::uint32_t i = begin + threadIdx.x;
+        const bool has_room = first + places.blocks <= state.capacity[Resource::lattice_blocks];
+        const std::uint32_t count = has_room ? places.blocks : 0;
+        for (std::uint32_t w = same_in_all_lanes(warp_in_block()); warp_threads * w < count; w += block_warps) {
+            const std::uint32_t i = warp_threads * w + lane_index();
             LatticeBlock block;
             KeptBlock kept;
             if (i < count) {
@@ -165,26 +201,20 @@ __global__ void __launch_bounds__(block_threads) keep_bricks(const __grid_consta
                 block = lattice_block(blocks, brick.block(closed_coordinate(place)), place, level);
                 kept = kept_block(brick, block, around);
             }
-            std::uint32_t own[] = {static_cast<std::uint32_t>(popcount(kept.corners)),
-                                   static_cast<std::uint32_t>(popcount(kept.middles) + popcount(kept.quarters)),
-                                   static_cast<std::uint32_t>(kept.edges.count()), block.level != 0 ? 1U : 0U,
-                                   static_cast<std::uint32_t>(popcount(kept.outer_faces))};
-            std::uint32_t all[BrickTotals::count];
-            places.sums.sum_below(own, all);
-            if (i < count) {
-                kept.before = {done[0] + own[0], done[1] + own[1], done[2] + own[2], done[3] + own[3],
-                               done[4] + own[4]};
-                state.lattice_blocks[first + i] = block;
-                state.kept_blocks[first + i] = kept;
-            }
-            for (unsigned n = 0; n < BrickTotals::count; ++n) done[n] += all[n];
+            kept.before = counts_below(block, kept, places.of_warp[w]);
+            if (i >= count) continue;
+            state.lattice_blocks[first + i] = block;
+            state.kept_blocks[first + i] = kept;
         }
+        __syncthreads();
+        std::uint32_t all[BrickTotals::count];
+        places.add_up((count + warp_threads - 1) / warp_threads, all);
+        // By the thread that has written the block.
+        for (std::uint32_t i = threadIdx.x; i < count; i += block_threads)
+            state.kept_blocks[first + i].before += totals_of(places.of_warp[i / warp_threads]);
         if (threadIdx.x == 0)
-            state.kept_bricks[b] = {static_cast<std::uint32_t>(first),
-                                    count,
-                                    places.row_count(),
-                                    places.levels,
-                                    {done[0], done[1], done[2], done[3], done[4]}};
+            state.kept_bricks[b] = {static_cast<std::uint32_t>(first), places.blocks, places.row_count(), places.levels,
+                                    totals_of(all)};
         // The next brick takes the place of this one.
         __syncthreads();
     }
