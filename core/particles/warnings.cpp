@@ -148,14 +148,20 @@ std::optional<Warning> too_small_support(const Settings& settings) {
 
 }  // namespace
 
+std::optional<Warning> find_wrong_radius(const PlacedFrame& particles, const Settings& settings) {
+    if (particles.on_device || particles.frame.count() == 0) return std::nullopt;
+    return wrong_radius(particles.frame, settings);
+}
+
 void find_warnings(const PlacedFrame& particles, const ParticlesByLevel& by_level, const Settings& settings,
-                   const std::function<float()>& greatest_sample, Statistics& statistics) {
+                   std::optional<Warning> wrong_radius, const std::function<float()>& greatest_sample,
+                   Statistics& statistics) {
     statistics.warnings.clear();
     if (particles.frame.count() == 0) return;
     const auto add = [&](std::optional<Warning> warning) {
         if (warning) statistics.warnings.push_back(std::move(*warning));
     };
-    if (!particles.on_device) add(wrong_radius(particles.frame, settings));
+    add(std::move(wrong_radius));
     if (statistics.triangles == 0)
         add(empty_surface(particles, settings, static_cast<double>(greatest_sample()), statistics.spray_particles));
     add(too_large_cells(by_level, settings));

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <future>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -146,10 +149,11 @@ public:
         DeviceMesh mesh;
         const ValidFrame valid = begin(frame);
         measure(valid, [&] {
+            auto wrong_radius = check_radius(valid);
             mesh = backend_->reconstruct_on_device(valid.particles, statistics_);
             attributes_.describe(mesh.attributes);
             count(mesh.vertex_count, mesh.triangle_count, mesh.levels);
-            warn(valid);
+            warn(valid, wrong_radius.get());
         });
         return mesh;
     }
@@ -271,9 +275,10 @@ private:
         adopt(mesh);
         try {
             measure(valid, [&] {
+                auto wrong_radius = check_radius(valid);
                 call(valid.particles);
                 count(mesh.vertices.size(), mesh.triangles.size(), mesh.levels);
-                warn(valid);
+                warn(valid, wrong_radius.get());
             });
         } catch (...) {
             mesh = {};
@@ -315,10 +320,23 @@ private:
         statistics_.allocations = allocations() - before;
     }
 
+    /// Holds the radius against the spacing of a frame, which must stay until the result is there: beside a GPU's work,
+    /// which takes about as long, and else once the result is asked for.
+    std::future<std::optional<Warning>> check_radius(const ValidFrame& frame) const {
+        const auto check = [this, &frame] { return find_wrong_radius(frame.particles, settings_); };
+        try {
+            if (options_.backend == Backend::cuda) return std::async(std::launch::async, check);
+        } catch (const std::system_error&) {
+            // No thread is to be had: it comes after the frame.
+        }
+        return std::async(std::launch::deferred, check);
+    }
+
     /// Finds the warnings of the frame just reconstructed, whose triangles are counted.
-    void warn(const ValidFrame& frame) {
+    void warn(const ValidFrame& frame, std::optional<Warning> wrong_radius) {
         find_warnings(
-            frame.particles, frame.by_level, settings_, [this] { return backend_->greatest_sample(); }, statistics_);
+            frame.particles, frame.by_level, settings_, std::move(wrong_radius),
+            [this] { return backend_->greatest_sample(); }, statistics_);
     }
 
     void count(std::size_t vertices, std::size_t triangles,

@@ -36,7 +36,8 @@ public:
         EXPECT_EQ(statistics_.volume, cpu.statistics().volume);
         statistics_.triangles = mesh_.triangles.size();
         find_warnings(
-            frame, count_levels(frame), settings_, [this] { return backend_->greatest_sample(); }, statistics_);
+            frame, count_levels(frame), settings_, find_wrong_radius(frame, settings_),
+            [this] { return backend_->greatest_sample(); }, statistics_);
         EXPECT_EQ(statistics_.warnings, cpu.statistics().warnings);
         for (const int max_level : {1, 3, 2}) {
             SCOPED_TRACE(testing::Message() << "levels up to " << max_level);
