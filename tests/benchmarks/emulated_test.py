@@ -74,8 +74,12 @@ def check_kernels(bench, folder):
     check(len(launches) > 30 and all(int(r["blocks"]) > 0 for r in launches), "kernels: a launch without blocks")
     check({r["kernel"].split("<")[0] for r in launches if r["cooperative"] == "true"}
           == {"balance_and_promote", "settle_band"}, "kernels: the cooperative ones")  # fmt: skip
+    check("write_bricks" not in names, "kernels: bricks are packed unasked")
     report = json.loads((folder / "kernels.json").read_text())
     check(report["commit"] and len(report["rows"]) == len(rows), "kernels: the JSON")
+    run(bench, "kernels", "--packed", "--particles", 300, "--repeats", 2, "--out", folder)
+    names = {r["kernel"] for r in rows_of(folder, "kernels")}
+    check({"keep_bricks", "write_bricks", "sum_words"} <= names, f"kernels --packed: {names}")
 
 
 def check_transfers(bench, folder):
@@ -105,13 +109,14 @@ def check_check(bench, folder):
     steps = [line.split()[0] for line in run(bench, "check", "--particles", 640, "--list").stdout.splitlines()]
     check(steps[:2] == ["device", "transfers"] and steps[-1] == "same-rest", f"check: steps are {steps}")
     # The sizes of a GPU take too long here.
-    slow = ("exact", "kernels-uniform", "kernels-adaptive", "same-large", "same-threads", "same-rest")
+    slow = ("exact", "kernels-uniform", "kernels-adaptive", "kernels-packed-adaptive", "same-large", "same-threads",
+            "same-rest")  # fmt: skip
     out = folder / "whole"
     run(bench, "check", "--particles", 640, "--out", out, "--only",
         *[step for step in steps if step not in slow])  # fmt: skip
     rows, names = results_of(out)
     results = {r["step"]: r["result"] for r in rows}
-    passed = {"transfers", "same-small", "same-million", "kernels-small"}
+    passed = {"transfers", "same-small", "same-million", "kernels-packed", "kernels-small"}
     check({s for s in results if results[s] == "passed"} >= passed, f"check: {rows}")
     check(results["delivery"] == "not run" and results["tests"] == "not run", f"check: {rows}")
     check({"check.csv", "check.json", "same-small.log", "same-small/same.csv"} <= set(names), f"check: has {names}")

@@ -35,8 +35,11 @@ public:
         all.insert(all.end(), words.begin(), words.end());
         add_own(name, seconds, all, true);
     }
-    void add_kernels(const std::string& name, double seconds, std::size_t particles, const std::string& mode) {
-        add_own(name, seconds, {"kernels", "--particles", std::to_string(particles), "--mode", mode});
+    void add_kernels(const std::string& name, double seconds, std::size_t particles, const std::string& mode,
+                     const Words& options = {}) {
+        Words words{"kernels", "--particles", std::to_string(particles), "--mode", mode};
+        words.insert(words.end(), options.begin(), options.end());
+        add_own(name, seconds, words);
     }
     void add_times(double seconds, std::size_t particles) {
         const std::string n = std::to_string(particles);
@@ -101,6 +104,8 @@ std::vector<Step> check_steps(std::size_t million, const std::filesystem::path& 
     for (const std::size_t particles : {million / 64, million / 10, million}) list.add_times(15, particles);
     list.add_kernels("kernels-uniform", 20, million, "uniform");
     list.add_kernels("kernels-adaptive", 20, million, "adaptive");
+    list.add_kernels("kernels-packed", 20, million, "uniform", {"--packed"});
+    list.add_kernels("kernels-packed-adaptive", 20, million, "adaptive", {"--packed"});
     list.add_kernels("kernels-small", 10, million / 64, "adaptive");
     list.add_own("delivery", 60, {"delivery", "--particles", std::to_string(million), "--meniscusd", "meniscusd"});
     for (const char* const kernel :

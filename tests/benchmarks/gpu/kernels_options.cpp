@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "gpu/mesh_difference.hpp"
+#include "meniscus/brick_coding.hpp"
 #include "meniscus/reconstructor.hpp"
 
 namespace meniscus::benchmarks {
@@ -41,10 +42,8 @@ void add_kernels_command(CLI::App& app, void (*run)(const KernelsOptions&)) {
                     "times the multiprocessors; 0: --particles")
         ->needs(model)
         ->capture_default_str();
-    command
-        .add_flag("--packed", options->packs,
-                  "Also pack the frame's bricks, with normals of 8 bits: a sum of its own beside the frame's")
-        ->needs(model);
+    command.add_flag("--packed", options->packs,
+                     "Also pack the frame's bricks, with normals of 8 bits: a sum of its own beside the frame's");
     command.callback([options, run] { run(*options); });
 }
 
@@ -55,6 +54,8 @@ WarmFrame::WarmFrame(const KernelsOptions& options, std::size_t particles)
     settings_.cell_size = options.cell_size;
     settings_.mode = by_name<Mode>(options.mode, "mode");
     settings_.field = by_name<Field>(options.field, "field");
+    mesh_.cell_size = world_cell_size(settings_);
+    mesh_.offset_bits = offset_bits(settings_);
     BackendOptions backend;
     backend.keep_lattice = keeps_lattice_;
     backend_ = cuda::make_reconstruction(settings_, backend, std::make_shared<MemoryAccount>(),
@@ -69,7 +70,13 @@ ParticleFrame WarmFrame::frame() const {
 
 void WarmFrame::reconstruct() {
     Statistics statistics;
-    static_cast<void>(backend_->reconstruct_on_device(frame(), statistics));
+    if (!keeps_lattice_) {
+        static_cast<void>(backend_->reconstruct_on_device(frame(), statistics));
+        return;
+    }
+    const MeshDownload download = backend_->reconstruct(frame(), mesh_, statistics);
+    if (download.pack(mesh_, {.codec = Codec::lattice_packed}) == nullptr)
+        throw std::runtime_error("the GPU has too little memory for the packed bricks");
 }
 
 void WarmFrame::reconstruct_as_the_cpu_does(

@@ -23,13 +23,13 @@ struct KernelsOptions {
     std::string mode = "uniform";
     std::string water = "splashing";
     unsigned repeats = 20;
+    bool packs = false;  ///< whether its bricks are packed
     std::string out = "kernels-results";
     // Of the model:
     bool is_model = false;
     std::string ptx;           ///< folder that kernel-ptx has written
     std::string gpu = "H200";  ///< a row of gpus.csv
     std::size_t counted = 0;   ///< particles of the frame that is counted; 0: as many as there are
-    bool packs = false;        ///< whether its bricks are packed
 };
 
 /// The subcommand with all its flags; run is called for it.
@@ -39,6 +39,7 @@ void add_kernels_command(CLI::App& app, void (*run)(const KernelsOptions&));
 class WarmFrame {
 public:
     WarmFrame(const KernelsOptions& options, std::size_t particles);
+    /// packs: with its bricks, which stay on the GPU.
     void reconstruct();
     /// The same, with its mesh as the host gets it, which is held against the CPU's. Throws std::runtime_error where it
     /// differs.
@@ -58,6 +59,7 @@ private:
     std::vector<float> positions_;
     Settings settings_;
     bool keeps_lattice_;
+    Mesh mesh_;  ///< whose bricks are packed
     std::unique_ptr<BackendReconstruction> backend_;
 };
 

@@ -30,7 +30,7 @@ public:
     void before(const cuda::Launch& launch) override {
         if (!is_wanted(launch)) return;
         // Else what lies between two events would hold the host's launch, where the GPU is ahead of it.
-        if (used_ == 0) keep_busy(launch.stream);
+        if (used_ == 0 || launch.stream != timed_[used_ - 1].launch.stream) keep_busy(launch.stream);
         if (used_ == timed_.size()) timed_.emplace_back();
         timed_[used_].launch = launch;
         timed_[used_].begin.record(launch.stream);
