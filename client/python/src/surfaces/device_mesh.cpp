@@ -19,7 +19,10 @@ constexpr std::string_view attribute_prefix = "attribute ";
 /// columns: 0 for an array of one dimension.
 py::dict interface(const void* data, std::string_view type, std::size_t rows, std::size_t columns) {
     py::dict out;
-    out["shape"] = columns == 0 ? py::make_tuple(rows) : py::make_tuple(rows, columns);
+    if (columns == 0)
+        out["shape"] = py::make_tuple(rows);
+    else
+        out["shape"] = py::make_tuple(rows, columns);
     out["typestr"] = type;
     // Not said to be read-only, which PyTorch refuses.
     out["data"] = py::make_tuple(reinterpret_cast<std::uintptr_t>(data), false);
