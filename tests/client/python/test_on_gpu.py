@@ -19,7 +19,7 @@ def of_cupy(array):
 
 
 def of_torch(array):
-    return pytest.importorskip("torch").as_tensor(array, device="cuda")
+    return pytest.importorskip("torch").as_tensor(array.copy(), device="cuda")
 
 
 def of_numba(array):

@@ -50,7 +50,9 @@ def test_the_figures_are_those_of_the_mesh(positions, mesh):
     counts = np.bincount(mesh.levels, minlength=4)
     assert {"crack": counts[0], **{f"level{i}": counts[i] for i in (1, 2, 3)}} == dict(figures.triangles_by_level)
     assert figures.particle_volume == pytest.approx(len(positions) * (2 * particle_radius) ** 3)
-    assert figures.backend in ("cpu", "cuda") and figures.threads >= (figures.backend == "cpu") and figures.peak_bytes > 0
+    assert (
+        figures.backend in ("cpu", "cuda") and figures.threads >= (figures.backend == "cpu") and figures.peak_bytes > 0
+    )
     assert figures.warnings == () and figures.total_seconds > 0 and len(figures.stage_seconds) == 8
 
 
