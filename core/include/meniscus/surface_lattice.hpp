@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <type_traits>
 
 #include "meniscus/memory.hpp"
 
@@ -10,13 +11,16 @@ namespace meniscus {
 
 /// A block of 4 x 4 x 4 lattice points (core/README.md#words) that a brick's triangles depend on.
 struct LatticeBlock {
-    std::uint64_t inside = 0;              ///< signs of its points: x + 4 y + 16 z; what no cell asks for is arbitrary
-    std::array<std::uint64_t, 3> edges{};  ///< by axis: its finest edges that carry a vertex of the mesh
-    std::uint32_t first_vertex = 0;        ///< number of its first vertex in the mesh, by axis, then by bit
-    std::uint16_t place = 0;               ///< x + 17 y + 289 z in the closed brick, whose upper faces are the next's
-    std::uint8_t level = 0;                ///< of its base cell, if that belongs to the brick and draws; else 0
-    std::uint8_t coarser = 0;              ///< bit 2 axis + side: beyond that face of the cell lies a coarser one
+    std::uint64_t inside;                ///< signs of its points: x + 4 y + 16 z; what no cell asks for is arbitrary
+    std::array<std::uint64_t, 3> edges;  ///< by axis: its finest edges that carry a vertex of the mesh
+    std::uint32_t first_vertex;          ///< number of its first vertex in the mesh, by axis, then by bit
+    std::uint16_t place;                 ///< x + 17 y + 289 z in the closed brick, whose upper faces are the next's
+    std::uint8_t level;                  ///< of its base cell, if that belongs to the brick and draws; else 0
+    std::uint8_t coarser;                ///< bit 2 axis + side: beyond that face of the cell lies a coarser one
 };
+
+// An array of a million takes no pass over its memory before it is written.
+static_assert(std::is_trivially_default_constructible_v<LatticeBlock>);
 
 struct LatticeRange {
     std::uint32_t first = 0;

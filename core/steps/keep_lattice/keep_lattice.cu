@@ -120,7 +120,7 @@ __device__ unsigned outer_mixed_faces(const ClosedBrick& brick, const Int3& at, 
 
 /// The host's copy of a block's facts.
 __device__ LatticeBlock lattice_block(const BlocksView& blocks, std::uint32_t number, int place, int level) {
-    LatticeBlock block;
+    LatticeBlock block{};
     block.place = static_cast<std::uint16_t>(place);
     block.level = static_cast<std::uint8_t>(level);
     if (number == no_index) return block;
@@ -192,7 +192,7 @@ __global__ void __launch_bounds__(block_threads) keep_bricks(const __grid_consta
         const std::uint32_t count = has_room ? places.blocks : 0;
         for (std::uint32_t w = same_in_all_lanes(warp_in_block()); warp_threads * w < count; w += block_warps) {
             const std::uint32_t i = warp_threads * w + lane_index();
-            LatticeBlock block;
+            LatticeBlock block{};
             KeptBlock kept;
             if (i < count) {
                 const int place = places.nth(i);
