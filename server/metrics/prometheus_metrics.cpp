@@ -64,14 +64,11 @@ struct PrometheusMetrics::Instruments {
                        {{"to", std::string(to)}});
     }
 
-    /// What any surface has, wherever it was made.
+    /// What the server knows itself of any surface, wherever it was made: a publisher may say anything of the rest, and
+    /// a counter never comes down.
     void count(const FrameStatistics& statistics) const {
         frames.Increment();
-        particles.Increment(number(statistics.particles));
-        spray.Increment(number(statistics.spray_particles));
-        particle_volume.Increment(statistics.particle_volume);
         triangles.Increment(number(statistics.triangles));
-        mesh_volume.Increment(statistics.volume);
         mesh_bytes.Increment(number(statistics.encoded_bytes));
         latency.Observe(statistics.latency_seconds);
     }
@@ -82,14 +79,14 @@ struct PrometheusMetrics::Instruments {
         counter("meniscus_frames_total", "Frames answered: reconstructed, or published as finished bricks.");
     prometheus::Counter& surfaces =
         counter("meniscus_surfaces_published_total", "Of those, frames of finished bricks.");
-    prometheus::Counter& particles = counter("meniscus_particles_total", "Particles of those frames.");
+    prometheus::Counter& particles = counter("meniscus_particles_total", "Particles of those that were reconstructed.");
     prometheus::Counter& spray =
-        counter("meniscus_spray_particles_total", "Particles of those frames that are without company.");
+        counter("meniscus_spray_particles_total", "Of those particles, the ones without company.");
     prometheus::Counter& particle_volume =
         counter("meniscus_particle_volume_total", "Volume of those particles, (2 r)^3 each, world units cubed.");
-    prometheus::Counter& triangles = counter("meniscus_triangles_total", "Triangles of their meshes.");
+    prometheus::Counter& triangles = counter("meniscus_triangles_total", "Triangles of all meshes.");
     prometheus::Counter& mesh_volume =
-        counter("meniscus_mesh_volume_total", "Volume that those meshes enclose, world units cubed.");
+        counter("meniscus_mesh_volume_total", "Volume that the meshes of those particles enclose, world units cubed.");
     prometheus::Counter& upload_bytes = counter("meniscus_upload_bytes_total", "Bytes of frames received whole.");
     prometheus::Counter& mesh_bytes =
         counter("meniscus_mesh_bytes_total", "Bytes of encoded bricks, each encoding counted once.");
@@ -142,6 +139,10 @@ void PrometheusMetrics::frame_dropped(DropReason reason) {
 
 void PrometheusMetrics::frame_finished(const FrameStatistics& statistics) {
     instruments_->count(statistics);
+    instruments_->particles.Increment(number(statistics.particles));
+    instruments_->spray.Increment(number(statistics.spray_particles));
+    instruments_->particle_volume.Increment(statistics.particle_volume);
+    instruments_->mesh_volume.Increment(statistics.volume);
     for (const Stage stage : choices<Stage>)
         instruments_->stages[stage].Observe(statistics.stage_seconds[static_cast<std::size_t>(stage)]);
     instruments_->reconstruction.Observe(statistics.total_seconds);

@@ -45,6 +45,9 @@ std::optional<RecordingStream::Frame> RecordingStream::next(RecordedParticles& p
             continue;
         }
         const Frame frame = announced(entry.particles());
+        if (entry.particles().finished_bricks())
+            fail("frame " + std::to_string(frame.index) +
+                 " came as finished bricks: it has a mesh, which convert writes, and no particles");
         if (entry.bytes() > limits_.most_bytes)
             fail("frame " + std::to_string(frame.index) + " is announced with " + std::to_string(entry.bytes()) +
                  " bytes; at most " + std::to_string(limits_.most_bytes) +

@@ -3,6 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { WatchResponseSchema, type WatchResponse } from '../src/gen/meniscus/v1/surface_service_pb';
 import { newestMesh } from '../src/list/newest_mesh';
 import type { Received } from '../src/rpc/call';
+import { Code, RpcError } from '../src/rpc/status';
 import { begin, brick } from './support/messages';
 
 describe('the mesh of a thumbnail', () => {
@@ -31,6 +32,26 @@ describe('the mesh of a thumbnail', () => {
 
   it('is the whole surface where that leaves nothing of it', async () => {
     expect(await meshOf(12n, { 3: 5 })).toEqual([[1, 3], 5]);
+  });
+
+  it('is the whole surface of a session that has no coarser one', async () => {
+    const asked: number[] = [];
+    const refusing = (code: Code) =>
+      newestMesh(async function* (maxLevel) {
+        asked.push(maxLevel);
+        await Promise.resolve();
+        if (maxLevel < 3) throw new RpcError(code, 'made elsewhere');
+        yield { message: begin({ index: 1, bricks: [] }), bytes: 1 };
+        yield {
+          message: create(WatchResponseSchema, {
+            message: { case: 'frameStatistics', value: { frameIndex: 1n, triangles: 0n } },
+          }),
+          bytes: 1,
+        };
+      });
+    expect((await refusing(Code.failedPrecondition))?.bricks.size).toBe(0);
+    expect(asked).toEqual([1, 3]);
+    await expect(refusing(Code.notFound)).rejects.toThrow('made elsewhere');
   });
 
   it('is asked for once where there is no surface, or no mesh', async () => {

@@ -96,6 +96,21 @@ describe('SessionWatch', () => {
     expect(states.map(({ kind }) => kind)).toEqual(['connecting', 'live']);
   });
 
+  it('asks for whole surfaces from then on where a session has no coarser ones', async () => {
+    const madeElsewhere = new RpcError(Code.failedPrecondition, 'made elsewhere');
+    watch.setOptions({ maxLevel: 2, normalBits: 6 });
+    expect(server.last.request).toMatchObject({ maxLevel: 2 });
+    await server.last.end(madeElsewhere);
+    expect(server.last.request).not.toHaveProperty('maxLevel');
+    expect(server.last.request).toMatchObject({ normalBits: 6 });
+    watch.setOptions({ maxLevel: 2 });
+    expect(server.last.request).not.toHaveProperty('maxLevel');
+    await server.last.send(...frame({ index: 1 }));
+    expect(state().kind).toBe('live');
+    await server.last.end(madeElsewhere);
+    expect(state().kind).toBe('refused');
+  });
+
   it('has another state for a session without a mesh than for a server that does not answer', async () => {
     expect(state().kind).toBe('connecting');
     server.last.open();

@@ -14,6 +14,7 @@
 #include "conversion/statistics_conversion.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/mesh.hpp"
+#include "meniscus/quoted.hpp"
 
 namespace meniscus::server {
 
@@ -54,6 +55,24 @@ std::vector<CodedAttribute> attributes_of(const v1::MeshBegin& mesh, const Setti
     return attributes;
 }
 
+/// Whether a number is one of the type.
+bool holds(ElementType type, double number) {
+    const auto within = [number](auto limits) {
+        return number >= static_cast<double>(limits.lowest()) && number <= static_cast<double>(limits.max());
+    };
+    switch (type) {
+        case ElementType::float32:
+            return within(std::numeric_limits<float>());
+        case ElementType::uint8:
+            return within(std::numeric_limits<std::uint8_t>());
+        case ElementType::int32:
+            return within(std::numeric_limits<std::int32_t>());
+        case ElementType::uint32:
+            return within(std::numeric_limits<std::uint32_t>());
+    }
+    return false;
+}
+
 /// attributes: of the same message.
 std::vector<AttributeRange> ranges_of(const v1::MeshBegin& mesh, const std::vector<CodedAttribute>& attributes,
                                       bool has_vertices) {
@@ -68,6 +87,10 @@ std::vector<AttributeRange> ranges_of(const v1::MeshBegin& mesh, const std::vect
         AttributeRange& range = ranges.emplace_back();
         std::ranges::copy(wire.minimum(), range.minimum.begin());
         std::ranges::copy(wire.maximum(), range.maximum.begin());
+        for (std::size_t c = 0; c < coded.components; ++c)
+            if (!holds(coded.type, range.minimum[c]) || !holds(coded.type, range.maximum[c]))
+                throw InvalidInput(fmt::format("attribute '{}' runs from {} to {}, which is no range of {}",
+                                               wire.name(), range.minimum[c], range.maximum[c], name_of(coded.type)));
         for (std::size_t c = 0; coded.bits != 0 && c < coded.components; ++c)
             if (range.minimum[c] < double{coded.minimum[c]} || range.maximum[c] > double{coded.maximum[c]})
                 throw InvalidInput(
@@ -130,11 +153,21 @@ BrickPart brick_part(const v1::PublishBegin& message, const Settings& settings) 
     BrickPart part;
     part.bytes = static_cast<std::size_t>(message.byte_count());
     part.bricks = mesh.brick_count();
+    // So that their memory is no more than some times these bytes.
+    constexpr std::uint64_t least_brick_bytes = 16;
+    if (part.bricks > part.bytes / least_brick_bytes)
+        throw InvalidInput(fmt::format("brick_count is {}, and byte_count {}: a brick has at least {} bytes",
+                                       part.bricks, part.bytes, least_brick_bytes));
     part.triangles = mesh.triangle_count();
     part.spray_points = mesh.spray_count();
+    if (part.spray_points != 0 && settings.spray != Spray::points)
+        throw InvalidInput(fmt::format("spray_count is {}, and the session's settings ask for none: spray is {}",
+                                       part.spray_points, name_of(settings.spray)));
     part.attributes = attributes_of(mesh, settings);
     part.ranges = ranges_of(mesh, part.attributes, part.bricks != 0);
     part.statistics = conversion::from_wire(message.statistics());
+    constexpr std::size_t longest_backend = 32;  // each answer of ListSessions has it
+    part.statistics.backend = escaped(part.statistics.backend, longest_backend);
     require_possible(part.statistics);
     if (part.statistics.triangles != part.triangles)
         throw InvalidInput(fmt::format("the statistics have {} triangles, and triangle_count is {}",

@@ -14,6 +14,7 @@
 #include "meniscus/brick_recoding.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/surface_service.pb.h"
+#include "sessions/limits/limits.hpp"
 #include "sessions/sending/brick_messages.hpp"
 #include "sessions/sending/place_order.hpp"
 
@@ -39,6 +40,13 @@ public:
         if (stream_.ExpectAtEnd() || stream_.BytesUntilTotalBytesLimit() == 0) return false;
         if (!stream_.ReadVarint32(&length) || length > static_cast<std::uint32_t>(stream_.BytesUntilTotalBytesLimit()))
             throw InvalidInput(fmt::format("no message at byte {}, or one that goes on behind the last", place));
+        // Unknown fields take many times their bytes once they are parsed.
+        constexpr std::uint32_t most = chunk_bytes + 1024;
+        if (length > most)
+            throw InvalidInput(
+                fmt::format("the message at byte {} has {} bytes; it must have at most {}: send a brick "
+                            "in parts of at most {} bytes",
+                            place, length, most, chunk_bytes));
         const auto limit = stream_.PushLimit(static_cast<int>(length));
         if (!message.ParseFromCodedStream(&stream_) || !stream_.ConsumedEntireMessage())
             throw InvalidInput(fmt::format("the bytes from {} on are no message", place));
@@ -128,6 +136,15 @@ private:
     std::uint64_t points_ = 0;
 };
 
+/// Bytes that a frame takes beside those that have come: its bricks, and their messages to watchers.
+std::size_t bytes_once_parsed(const InputFrame& input) {
+    constexpr std::size_t copies = 3;           // parsed, as messages, and while a message is made
+    constexpr std::size_t bytes_a_brick = 640;  // what is known of it, and the records of its messages
+    std::size_t bytes = copies * input.bytes.size();
+    for (const BrickPart& part : input.brick_parts) bytes += bytes_a_brick * std::size_t{part.bricks};
+    return bytes;
+}
+
 /// Throws InvalidInput for a brick that has not the codec and the normals of the others.
 void require_same_form(const EncodedBrick& brick, const FinishedBricks& all) {
     if (brick.codec != all.codec)
@@ -165,7 +182,10 @@ std::vector<BrickReader::Brick> BrickReader::bricks_of(const InputFrame& input, 
         about_part(p, parts, [&] {
             PartMessages messages(bytes.first(input.brick_parts[p].bytes));
             PartReading reading(input.brick_parts[p], spray);
-            while (messages.next(message)) reading.take(message);
+            while (messages.next(message)) {
+                stop_if_asked();
+                reading.take(message);
+            }
             for (EncodedBrick& brick : reading.end())
                 bricks.push_back({.encoded = std::move(brick), .part = static_cast<std::uint32_t>(p)});
             bytes = bytes.subspan(input.brick_parts[p].bytes);
@@ -181,6 +201,10 @@ std::vector<BrickReader::Brick> BrickReader::bricks_of(const InputFrame& input, 
     return bricks;
 }
 
+void BrickReader::stop_if_asked() const {
+    if (stop_ && stop_->is_raised()) throw Stopped();
+}
+
 void BrickReader::require_in_domain(const EncodedBrick& brick) const {
     if (!settings_.domain) return;
     const double cell = world_cell_size(settings_);
@@ -194,7 +218,7 @@ void BrickReader::require_in_domain(const EncodedBrick& brick) const {
 
 BrickReader::Known BrickReader::checked(const Brick& brick, const std::vector<CodedAttribute>& attributes,
                                         const Known* before) {
-    if (stop_ && stop_->is_raised()) throw Stopped();
+    stop_if_asked();
     const ContentHash hash = content_hash(brick.encoded, attributes);
     if (before != nullptr && before->messages->content_hash == hash) return *before;
     if (brick.encoded.triangles == 0) throw InvalidInput(fmt::format("{} has no triangles", place_of(brick.encoded)));
@@ -203,7 +227,8 @@ BrickReader::Known BrickReader::checked(const Brick& brick, const std::vector<Co
     {
         ScratchPool::Loan loan(scratch_);
         const DecodedBrick decoded = decode_brick(brick.encoded, offset_bits(settings_), attributes, *loan);
-        if (check_ == Check::closed_surface) known.open = std::make_shared<const OpenEdges>(open_edges(decoded));
+        if (check_ == Check::closed_surface)
+            known.open = std::make_shared<const OpenEdges>(open_edges(decoded, scratch_.account()));
     }
     known.messages = brick_messages(brick.encoded, hash);
     return known;
@@ -218,9 +243,9 @@ void BrickReader::read(const InputFrame& input, ReconstructedFrame& frame) {
     mesh.offset_bits = offset_bits(settings_);
     for (const CodedAttribute& form : attributes)
         mesh.attributes.push_back({form.name, form.type, form.components, {}});
-    const std::vector<Brick> bricks = bricks_of(input, mesh.spray);
-
     auto finished = std::make_shared<FinishedBricks>();
+    finished->charge = std::make_shared<const MemoryCharge>(scratch_.account(), bytes_once_parsed(input));
+    const std::vector<Brick> bricks = bricks_of(input, mesh.spray);
     finished->offset_bits = mesh.offset_bits;
     finished->attributes = attributes;
     if (!bricks.empty()) {
@@ -250,7 +275,7 @@ void BrickReader::read(const InputFrame& input, ReconstructedFrame& frame) {
     if (check_ == Check::closed_surface) {
         std::vector<std::shared_ptr<const OpenEdges>> open;
         for (const Known& brick : known) open.push_back(brick.open);
-        require_closed(open, mesh);
+        require_closed(open, mesh, scratch_.account());
     }
     known_ = std::move(known);
     frame.finished = std::move(finished);

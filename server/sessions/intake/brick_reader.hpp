@@ -23,7 +23,8 @@ class BrickReader {
 public:
     enum class Check : bool { each_brick, closed_surface };
 
-    /// account: of the memory that bricks are decoded in; stop: ends the reading of a frame early. Both may be none.
+    /// account: of the memory that bricks are kept and decoded in; stop: ends the reading of a frame early. Both may be
+    /// none.
     BrickReader(const Settings& settings, Check check, std::shared_ptr<WorkerPool> workers,
                 std::shared_ptr<MemoryAccount> account, std::shared_ptr<StopFlag> stop)
         : settings_(settings),
@@ -54,6 +55,7 @@ private:
     };
 
     std::vector<Brick> bricks_of(const InputFrame& input, Array<Point>& spray) const;
+    void stop_if_asked() const;
     void require_in_domain(const EncodedBrick& brick) const;
     Known checked(const Brick& brick, const std::vector<CodedAttribute>& attributes, const Known* before);
 

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "meniscus/attribute_coding.hpp"
 #include "meniscus/brick_coding.hpp"
+#include "sessions/limits/memory_charge.hpp"
 #include "sessions/sending/encoded_frame.hpp"
 
 namespace meniscus::server {
@@ -19,6 +21,7 @@ struct FinishedBricks {
     std::vector<CodedAttribute> attributes;  ///< that they carry
     std::vector<SharedBrick> bricks;         ///< ordered by place (z, y, x)
     std::uint64_t triangles = 0;
+    std::shared_ptr<const MemoryCharge> charge;  ///< for what they take once they are parsed
 };
 
 /// The bricks in one form. All that is passed by reference outlives it.

@@ -56,7 +56,7 @@ FrameStatistics statistics_of(const ReconstructedFrame& frame, const MeshDownloa
     FrameStatistics statistics{frame.statistics};
     statistics.frame_index = frame.index;
     statistics.simulation_time = frame.simulation_time;
-    statistics.download_seconds = download.seconds();
+    if (!frame.finished) statistics.download_seconds = download.seconds();
     statistics.latency_seconds = seconds_since(frame.received_at);
     return statistics;
 }

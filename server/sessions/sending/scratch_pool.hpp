@@ -32,6 +32,8 @@ public:
     /// account: none: uncounted.
     explicit ScratchPool(std::shared_ptr<MemoryAccount> account = nullptr) : account_(std::move(account)) {}
 
+    /// None: uncounted.
+    const std::shared_ptr<MemoryAccount>& account() const noexcept { return account_; }
     /// Frees what is not on loan.
     void release_memory() {
         const std::lock_guard lock(mutex_);

@@ -146,6 +146,33 @@ TEST_F(Push, AnswersTheFramesBeforeABrokenOneAndThenSaysWhatIsWrong) {
     EXPECT_EQ(result.err, "meniscus: " + said + "\n");
 }
 
+TEST_F(Push, RefusesARecordedFrameThatCameAsFinishedBricks) {
+    server::ServerOptions options;
+    options.listen = "unix:" + (directory_ / "recording-socket").string();
+    options.recording.directory = directory_ / "recordings";
+    const std::string id = client::new_session_id();
+    {
+        server::Server recording(options);
+        client::Client client(recording.address());
+        client.create_session(id, settings_);
+        Reconstructor reconstructor(settings_, {.backend = Backend::cpu, .threads = 1, .keep_lattice = true});
+        Mesh mesh;
+        reconstructor.reconstruct(Block(4).frame(), mesh);
+        client::Publisher publisher = client.publish(id);
+        publisher.push(
+            client::encode_frame(mesh, reconstructor.statistics(), 6, 0.5, {.codec = Codec::lattice_packed}));
+        publisher.finish();
+        ASSERT_TRUE(publisher.next());
+        client.delete_session(id);
+    }
+    const auto file = std::filesystem::directory_iterator(directory_ / "recordings" / id)->path();
+    const ProcessResult result = push(formats::read_file(file), {"-q"});
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    EXPECT_NE(result.err.find("frame 6 came as finished bricks: it has a mesh, which convert writes, and no particles"),
+              std::string::npos)
+        << result.err;
+}
+
 TEST_F(Push, TakesSettingsFromTheFlagsOrFromTheRecordingAndNeverFromBoth) {
     const std::string bytes = c::recording_beginning() + bytes_of(Block(2), 0);
     const ProcessResult none = push(bytes);

@@ -3,6 +3,7 @@ import type { Frame } from '../bricks/frame';
 import { FrameReceiver } from '../bricks/frame_receiver';
 import type { WatchResponse } from '../gen/meniscus/v1/surface_service_pb';
 import type { Received } from '../rpc/call';
+import { Code, RpcError } from '../rpc/status';
 
 /** The coarsest shows as much as a thumbnail can; of water that is thinner than its cells nothing may be left in it. */
 const levels = [1, 3];
@@ -13,7 +14,13 @@ export async function newestMesh(
 ): Promise<Frame | undefined> {
   let newest: Frame | undefined;
   for (const maxLevel of levels) {
-    newest = await frameOf(snapshot(maxLevel));
+    try {
+      newest = await frameOf(snapshot(maxLevel));
+    } catch (error) {
+      // Of a surface that was made elsewhere there is no coarser one.
+      if (maxLevel < 3 && error instanceof RpcError && error.code === Code.failedPrecondition) continue;
+      throw error;
+    }
     // The statistics are those of the whole surface, whatever the level.
     if (!newest || newest.bricks.size > 0 || newest.statistics.triangles === 0n) break;
   }

@@ -37,6 +37,8 @@ const passing: ReadonlySet<Code> = new Set([
 ]);
 
 export class SessionWatch {
+  /** Whether the session has refused a coarser surface: one that was made elsewhere has none. */
+  private finestOnly = false;
   private readonly backoff = new Backoff(reconnecting);
   private readonly longBackoff = new Backoff(resting);
   private readonly order = new FrameOrder();
@@ -94,6 +96,12 @@ export class SessionWatch {
     this.call = undefined;
   }
 
+  private request(): WatchOptions & { sessionId: string } {
+    const request = { ...this.options, sessionId: this.sessionId };
+    if (this.finestOnly) delete request.maxLevel;
+    return request;
+  }
+
   private async run(signal: AbortSignal): Promise<void> {
     const receiver = new FrameReceiver();
     const opened = (): void => {
@@ -101,11 +109,7 @@ export class SessionWatch {
         this.report({ kind: 'connected' });
     };
     try {
-      for await (const { message, bytes } of this.server.watch(
-        { ...this.options, sessionId: this.sessionId },
-        signal,
-        opened,
-      )) {
+      for await (const { message, bytes } of this.server.watch(this.request(), signal, opened)) {
         if (signal.aborted) return;
         this.take(receiver, message, bytes);
       }
@@ -147,7 +151,10 @@ export class SessionWatch {
     else if (error.code === Code.notFound && this.reportEnd()) this.scheduleRetry();
     else if (error.code === Code.notFound) this.report({ kind: 'absent', retryAt: this.scheduleRetry(), reason });
     else if (passing.has(error.code)) this.report({ kind: 'waiting', retryAt: this.scheduleRetry(), reason });
-    else this.end({ kind: 'refused', reason });
+    else if (error.code === Code.failedPrecondition && this.request().maxLevel !== undefined) {
+      this.finestOnly = true;
+      this.start();
+    } else this.end({ kind: 'refused', reason });
   }
 
   /** When: on the page's clock, ms. */
