@@ -68,10 +68,6 @@ void Mesh::clear() {
     levels = {};
 }
 
-std::string_view version() {
-    return MENISCUS_VERSION;
-}
-
 BackendDescription describe_backend(Backend choice, int device) {
     const std::string without_gpu = cuda::why_unavailable(device);
     if (choice == Backend::cuda && !without_gpu.empty())
