@@ -1,11 +1,9 @@
 // A vertex on a coarser lattice, so that it takes fewer bits.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "lattice/host_device.hpp"
-#include "meniscus/mesh.hpp"
 
 namespace meniscus {
 
@@ -22,11 +20,12 @@ MENISCUS_HD inline std::uint16_t round_position(std::uint16_t position, std::uin
     return static_cast<std::uint16_t>((std::uint32_t{position} >> from << to) + inside);
 }
 
-/// The place of a vertex on its finest edge, along this axis, in steps of c / 2^to; 2^from: those of its position.
-MENISCUS_HD inline std::uint8_t edge_offset(const LatticePosition& vertex, int axis, std::uint32_t from, int to) {
-    const auto coordinate = static_cast<std::uint32_t>(vertex[static_cast<std::size_t>(axis)]);
-    return static_cast<std::uint8_t>(round_position(static_cast<std::uint16_t>(coordinate & ((1U << from) - 1)), from,
-                                                    static_cast<std::uint32_t>(to)));
+/// The place of a vertex on its finest edge, in steps of c / 2^to. coordinate: of its position along that edge, in
+/// steps of c / 2^from.
+MENISCUS_HD inline std::uint8_t edge_offset(std::int32_t coordinate, std::uint32_t from, int to) {
+    const std::uint32_t within_edge = static_cast<std::uint32_t>(coordinate) & ((1U << from) - 1);
+    return static_cast<std::uint8_t>(
+        round_position(static_cast<std::uint16_t>(within_edge), from, static_cast<std::uint32_t>(to)));
 }
 
 }  // namespace meniscus

@@ -239,8 +239,8 @@ private:
             for_each_brick_vertex(
                 block.edges, block.first_vertex, lattice.edges[block.place], [&](int axis, std::uint32_t vertex) {
                     vertices_.push_back(vertex);
-                    brick_.offsets.push_back(
-                        edge_offset(mesh.vertices[vertex], axis, mesh.offset_bits, brick_.offset_bits));
+                    brick_.offsets.push_back(edge_offset(mesh.vertices[vertex][static_cast<std::size_t>(axis)],
+                                                         mesh.offset_bits, brick_.offset_bits));
                 });
         }
         if (brick_.normal_bits == 0) return;

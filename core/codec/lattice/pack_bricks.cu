@@ -160,9 +160,10 @@ __device__ void write_vertices(const LatticeOnDevice& mesh, const PackedForm& fo
         const std::uint64_t middles =
             kept.before.middles + static_cast<std::uint64_t>(popcount(kept.middles) + popcount(kept.quarters));
         // Both loads come before what waits for the first.
-        const LatticePosition position = exists ? mesh.vertices[vertex.number] : LatticePosition{};
+        const std::int32_t coordinate =
+            exists ? mesh.vertices[vertex.number][static_cast<std::size_t>(vertex.axis)] : 0;
         const Normal normal = exists && form.normal_bits != 0 ? mesh.normals[vertex.number] : Normal{};
-        const std::uint64_t offset = edge_offset(position, vertex.axis, mesh.offset_bits, form.offset_bits);
+        const std::uint64_t offset = edge_offset(coordinate, mesh.offset_bits, form.offset_bits);
         write_together(out, exists, fields.edges + middles + static_cast<std::uint64_t>(form.offset_bits) * number,
                        offset, form.offset_bits);
         if (form.normal_bits == 0) return;
