@@ -76,7 +76,7 @@ TEST_F(BadBricks, OfAnotherLatticeAreRefused) {
 }
 
 TEST_F(BadBricks, ThatAreNoneOfTheirCodecAreRefusedWithTheirPlace) {
-    const auto& place = surface().bricks[1]->coordinate;
+    const auto place = surface().bricks[1]->coordinate;
     const std::string name =
         "brick (" + std::to_string(place[0]) + ", " + std::to_string(place[1]) + ", " + std::to_string(place[2]) + ")";
     EXPECT_EQ(changed([](auto& frame) { changeable(frame, 1).data.resize(20); }).substr(0, 11 + name.size()),
