@@ -11,6 +11,7 @@
 #include "meniscus/backend_options.hpp"
 #include "meniscus/client/frame_statistics.hpp"
 #include "meniscus/client/particle_watcher.hpp"
+#include "meniscus/client/publisher.hpp"
 #include "meniscus/client/session.hpp"
 #include "meniscus/client/stream.hpp"
 #include "meniscus/client/watcher.hpp"
@@ -109,6 +110,7 @@ int main() {
     meniscus::print_rows<meniscus::BackendOptions>("backend options");
     meniscus::print_rows<meniscus::client::OpenOptions>("open options");
     meniscus::print_rows<meniscus::client::StreamOptions>("stream options");
+    meniscus::print_rows<meniscus::client::PublisherOptions>("publisher options");
     meniscus::print_rows<meniscus::client::WatchOptions>("watch options");
     meniscus::print_rows<meniscus::client::ParticleWatchOptions>("particle watch options");
     meniscus::print_rows<meniscus::client::SnapshotOptions>("snapshot options");

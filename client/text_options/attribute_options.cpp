@@ -29,15 +29,6 @@ std::vector<std::string> names_of(OptionReader& options) {
     return names;
 }
 
-int bits_of(OptionReader& options) {
-    int bits = default_attribute_bits;
-    options.read("attribute-bits", bits);
-    if (bits < 0 || bits > max_attribute_bits)
-        throw InvalidInput(options.quoted("attribute-bits") + " is '" + std::to_string(bits) + "', must be 1 to " +
-                           std::to_string(max_attribute_bits) + ", or 0 for exact values");
-    return bits;
-}
-
 /// "velocity", or "velocity:12" with bits of its own.
 AttributeWish wish_of(const std::string& text, int bits, OptionNaming naming) {
     const std::size_t colon = text.find(':');
@@ -45,7 +36,7 @@ AttributeWish wish_of(const std::string& text, int bits, OptionNaming naming) {
     const std::string own = text.substr(colon + 1);
     const Options options{{"attribute-bits", own}};
     OptionReader reader(&options, naming);
-    return {.name = text.substr(0, colon), .bits = bits_of(reader)};
+    return {.name = text.substr(0, colon), .bits = read_attribute_bits(reader)};
 }
 
 /// Empty names stand for all.
@@ -61,9 +52,18 @@ void read_attributes(OptionReader& options, Settings& settings) {
     if (settings.all_attributes) settings.attributes.clear();
 }
 
+int read_attribute_bits(OptionReader& options) {
+    int bits = default_attribute_bits;
+    options.read("attribute-bits", bits);
+    if (bits < 0 || bits > max_attribute_bits)
+        throw InvalidInput(options.quoted("attribute-bits") + " is '" + std::to_string(bits) + "', must be 1 to " +
+                           std::to_string(max_attribute_bits) + ", or 0 for exact values");
+    return bits;
+}
+
 std::vector<AttributeWish> read_attribute_wishes(OptionReader& options) {
     const std::vector<std::string> names = names_of(options);
-    const int bits = bits_of(options);
+    const int bits = read_attribute_bits(options);
     if (names == std::vector{std::string(all)}) return every_attribute(bits);
     std::vector<AttributeWish> wishes;
     for (const std::string& name : names) wishes.push_back(wish_of(name, bits, options.naming()));
@@ -71,7 +71,7 @@ std::vector<AttributeWish> read_attribute_wishes(OptionReader& options) {
 }
 
 std::vector<AttributeWish> read_every_attribute(OptionReader& options) {
-    return every_attribute(bits_of(options));
+    return every_attribute(read_attribute_bits(options));
 }
 
 }  // namespace meniscus::text_options

@@ -17,6 +17,12 @@ client::StreamOptions read_stream(OptionReader& options) {
     return record_of<client::StreamOptions>(options);
 }
 
+client::PublisherOptions read_publisher(OptionReader& options) {
+    auto publisher = record_of<client::PublisherOptions>(options);
+    publisher.attribute_bits = read_attribute_bits(options);
+    return publisher;
+}
+
 client::WatchOptions read_watch(OptionReader& options) {
     auto watch = record_of<client::WatchOptions>(options);
     watch.attributes = read_attribute_wishes(options);

@@ -3,6 +3,7 @@
 
 #include "meniscus/client/connection_options.hpp"
 #include "meniscus/client/particle_watcher.hpp"
+#include "meniscus/client/publisher.hpp"
 #include "meniscus/client/session.hpp"
 #include "meniscus/client/stream.hpp"
 #include "meniscus/client/watcher.hpp"
@@ -16,6 +17,7 @@ client::ConnectionOptions read_connection(OptionReader& options);
 client::OpenOptions read_open(OptionReader& options);
 /// But for the attributes and the spray.
 client::StreamOptions read_stream(OptionReader& options);
+client::PublisherOptions read_publisher(OptionReader& options);
 client::WatchOptions read_watch(OptionReader& options);
 client::ParticleWatchOptions read_particle_watch(OptionReader& options);
 client::SnapshotOptions read_snapshot(OptionReader& options);

@@ -50,7 +50,7 @@ Publisher::~Publisher() {
 void Publisher::push(const Mesh& mesh, const Statistics& statistics, std::uint64_t index, double simulation_time) {
     if (mesh.lattice.bricks.size() != mesh.bricks.size())
         throw InvalidInput("frame " + std::to_string(index) +
-                           ": the mesh has no lattice: reconstruct it with BackendOptions::keep_lattice");
+                           ": the mesh has no lattice, of which its bricks are made: reconstruct it with keep_lattice");
     CodingOptions coding = coding_;
     coding.attributes = coded_attributes(mesh, attribute_ranges(mesh), wishes_);
     push(encode_frame(mesh, statistics, index, simulation_time, coding));

@@ -23,6 +23,12 @@ Frames of a simulation, live, through a server (``meniscusd``), whose viewer in 
     ...         for frame in stream.ready():
     ...             print(frame.index, len(frame.mesh.triangles))
 
+Surfaces that are made here, for the watchers of a session:
+
+    >>> reconstructor = meniscus.Reconstructor(0.02, keep_lattice=True)
+    >>> with client.session(particle_radius=0.02) as session, session.publish() as publisher:
+    ...     publisher.push(reconstructor.reconstruct(positions), time=0.0)
+
 Somebody else's session:
 
     >>> [(info.id, info.name) for info in client.sessions()]
@@ -46,6 +52,7 @@ from .frame import AttributeForm, Frame, ParticleFrame
 from .information import RecordingInfo, ServerInfo, SessionInfo
 from .mesh import DeviceArray, DeviceMesh, Mesh
 from .publication import Publication, open, publish
+from .publisher import Publisher
 from .reconstructor import Reconstructor, reconstruct
 from .recording_file import RecordingFile, read_bricks
 from .server import Server
@@ -72,6 +79,7 @@ __all__ = [
     "ParticleWatcher",
     "Particles",
     "Publication",
+    "Publisher",
     "Reconstructor",
     "RecordingFile",
     "RecordingInfo",

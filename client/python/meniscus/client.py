@@ -11,8 +11,9 @@ from .background import in_background
 from .errors import InvalidInput
 from .frame import Frame, ParticleFrame
 from .information import RecordingInfo, ServerInfo, SessionInfo
-from .opening import open_particle_watcher, open_stream, open_watcher
+from .opening import open_particle_watcher, open_publisher, open_stream, open_watcher
 from .options import AttributeRequest, attribute_text, names_text, option_texts
+from .publisher import Publisher
 from .session import Session, session_info
 from .stream import Stream
 from .types import Real, Whole
@@ -129,6 +130,19 @@ class Client:
         on_reconnect    called at each attempt (attempt, connected, reason, seconds left), until close()
         """
         return open_stream(partial(self._raw.stream, _id_text(session)), **options)
+
+    def publish(self, session: AnySession, **options: Any) -> Publisher:
+        """Opens a publisher to a session that is there, and has had no particles.
+
+        codec           "packed", the fastest; or "entropy", the smallest. Receivers that ask for it and for the same
+                        bits are sent the bricks as they are
+        normal_bits     8: 2 to 16; where the session's settings ask for no normals, there are none
+        attribute_bits  8: float32 are rounded to one of 2^bits values over the mesh's range, 1 to 16; 0: exact
+        parts           1: publishers, of other processes too, that each have some of the bricks of every frame; no
+                        brick has two owners
+        waiting_limit, policy, nth, part, run, reconnect, route_check, on_reconnect  as those of stream()
+        """
+        return open_publisher(partial(self._raw.publish, _id_text(session)), **options)
 
     def watch(self, session: AnySession, **options: Any) -> Watcher:
         """Receives the meshes of somebody's session, always the newest.

@@ -7,6 +7,7 @@ from .frame import Frame, ParticleFrame
 from .information import RecordingInfo, ServerInfo, SessionInfo
 from .opening import ReconnectHandler
 from .options import AttributeRequest
+from .publisher import Publisher
 from .session import Session
 from .stream import Stream
 from .types import Box, Point, Real, Whole
@@ -93,6 +94,25 @@ class Client:
         route_check: Optional[Real] = 2,
         # end of rows
     ) -> Stream: ...
+    def publish(
+        self,
+        session: AnySession,
+        *,
+        attribute_bits: Optional[Whole] = 8,
+        on_reconnect: Optional[ReconnectHandler] = None,
+        # rows: publisher options
+        codec: Optional[Literal["entropy", "packed", "draco"]] = "packed",
+        normal_bits: Optional[Whole] = 8,
+        waiting_limit: Optional[Whole] = 0,
+        policy: Optional[Literal["every-frame", "latest", "every-nth"]] = "every-frame",
+        nth: Optional[Whole] = 1,
+        parts: Optional[Whole] = 1,
+        part: Optional[Whole] = 0,
+        run: Optional[Whole] = 0,
+        reconnect: Optional[Real] = 0,
+        route_check: Optional[Real] = 2,
+        # end of rows
+    ) -> Publisher: ...
     def watch(
         self,
         session: AnySession,

@@ -44,11 +44,18 @@ class Frame:
         #: "incomplete" where another part of it is missing).
         self.dropped: tuple[tuple[int, str], ...] = raw.dropped
 
+    def require_mesh(self) -> None:
+        """Raises InvalidInput where none has come with the frame."""
+        if not self._has_mesh:
+            raise InvalidInput(
+                "this frame has no mesh: it answers a publisher, or its stream was opened with meshes=False, or with a "
+                "part but 0"
+            )
+
     @cached_property
     def mesh(self) -> Mesh:
         """The mesh, decoded when it is asked for first."""
-        if not self._has_mesh:
-            raise InvalidInput("this frame has no mesh: its stream was opened with meshes=False, or with a part but 0")
+        self.require_mesh()
         return Mesh(self._raw.mesh())
 
     @cached_property

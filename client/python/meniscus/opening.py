@@ -1,4 +1,4 @@
-"""Streams and watchers, opened by the keywords of Client and Session."""
+"""Streams, publishers and watchers, opened by the keywords of Client and Session."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Any, Callable, Optional
 from . import _meniscus
 from .errors import InvalidInput
 from .options import AttributeRequest, attribute_text, option_texts
+from .publisher import Publisher
 from .receiving import Handler
 from .stream import Stream
 from .watcher import ParticleWatcher, Watcher
@@ -30,6 +31,18 @@ def open_stream(
     stream = Stream(open_raw(texts, handler), meshes and not options.get("part"))  # meshes come to part 0 alone
     stream._handler = handler
     return stream
+
+
+def open_publisher(
+    open_raw: Callable[[dict[str, str], Optional[ReconnectHandler]], _meniscus.Publisher],
+    *,
+    on_reconnect: Optional[ReconnectHandler] = None,
+    **options: Any,
+) -> Publisher:
+    handler = _handler(on_reconnect)
+    publisher = Publisher(open_raw(option_texts(options), handler))
+    publisher._handler = handler
+    return publisher
 
 
 def open_watcher(

@@ -44,7 +44,7 @@ class Reconstructor:
 
     A ``domain`` is ((x0, y0, z0), (x1, y1, z1)). Further keywords say how it is computed: ``backend`` ("auto", "cpu",
     "cuda"), ``threads`` (0: one for each processor), ``memory_limit`` (bytes, 0: none), ``device`` (index of the GPU),
-    ``device_memory_limit``.
+    ``device_memory_limit``, ``keep_lattice`` (True: meshes keep what their bricks are made of, for Publisher.push()).
 
     Raises InvalidInput for settings that are out of range or not known. Calls of several threads take turns. The
     interpreter's lock is not held while a surface is computed, and Ctrl-C ends the computation.

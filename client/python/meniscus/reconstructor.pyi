@@ -36,6 +36,7 @@ class Reconstructor:
         memory_limit: Optional[Whole] = 0,
         device: Optional[Whole] = 0,
         device_memory_limit: Optional[Whole] = 0,
+        keep_lattice: Optional[bool] = False,
         # end of rows
     ) -> None: ...
     @property
@@ -90,5 +91,6 @@ def reconstruct(
     memory_limit: Optional[Whole] = 0,
     device: Optional[Whole] = 0,
     device_memory_limit: Optional[Whole] = 0,
+    keep_lattice: Optional[bool] = False,
     # end of rows
 ) -> Mesh: ...

@@ -7,7 +7,8 @@ from typing import Any
 from . import _meniscus
 from .errors import ForkedError, ServerError
 from .information import SessionInfo
-from .opening import open_particle_watcher, open_stream, open_watcher
+from .opening import open_particle_watcher, open_publisher, open_stream, open_watcher
+from .publisher import Publisher
 from .statistics import Statistics
 from .stream import Stream
 from .watcher import ParticleWatcher, Watcher
@@ -40,6 +41,11 @@ class Session:
     def stream(self, **options: Any) -> Stream:
         """Opens the session's stream; a session has one at a time. The keywords are those of Client.stream()."""
         return open_stream(self._raw.stream, **options)
+
+    def publish(self, **options: Any) -> Publisher:
+        """Opens a publisher of surfaces that are made here; a session has particles or surfaces, and not both. The
+        keywords are those of Client.publish()."""
+        return open_publisher(self._raw.publish, **options)
 
     def watch(self, **options: Any) -> Watcher:
         """Watches the session as Client.watch() does."""

@@ -6,6 +6,7 @@ from . import _meniscus
 from .information import SessionInfo
 from .opening import ReconnectHandler
 from .options import AttributeRequest
+from .publisher import Publisher
 from .stream import Stream
 from .types import Box, Point, Real, Whole
 from .watcher import ParticleWatcher, Watcher
@@ -40,6 +41,24 @@ class Session:
         route_check: Optional[Real] = 2,
         # end of rows
     ) -> Stream: ...
+    def publish(
+        self,
+        *,
+        attribute_bits: Optional[Whole] = 8,
+        on_reconnect: Optional[ReconnectHandler] = None,
+        # rows: publisher options
+        codec: Optional[Literal["entropy", "packed", "draco"]] = "packed",
+        normal_bits: Optional[Whole] = 8,
+        waiting_limit: Optional[Whole] = 0,
+        policy: Optional[Literal["every-frame", "latest", "every-nth"]] = "every-frame",
+        nth: Optional[Whole] = 1,
+        parts: Optional[Whole] = 1,
+        part: Optional[Whole] = 0,
+        run: Optional[Whole] = 0,
+        reconnect: Optional[Real] = 0,
+        route_check: Optional[Real] = 2,
+        # end of rows
+    ) -> Publisher: ...
     def watch(
         self,
         *,

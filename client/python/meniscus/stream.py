@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import asyncio
-from collections import deque
-from concurrent.futures import wait
 from functools import partial
 from typing import Mapping, Optional
 
 from . import _meniscus, arrays
-from .background import Worker
 from .frame import Frame
-from .receiving import Frames
 from .types import ArrayLike, Real, Whole
+from .uploading import Uploads
 
 
-class Stream(Frames[Frame]):
+class Stream(Uploads):
     """Uploads frames and receives their meshes, in order; from Session.stream() or Client.stream().
 
     At the end of a ``with`` block the stream is finished and waits until the server has answered all frames; those
@@ -27,7 +24,6 @@ class Stream(Frames[Frame]):
     def __init__(self, raw: _meniscus.Stream, meshes: bool) -> None:
         super().__init__(raw, lambda frame: Frame(frame, meshes))
         self._raw = raw
-        self._pushes = Worker("meniscus-push")
 
     def push(
         self,
@@ -73,36 +69,3 @@ class Stream(Frames[Frame]):
         the same; until then the arrays must stay as they are."""
         push = partial(self.push, positions, levels=levels, attributes=attributes, time=time, index=index)
         return await asyncio.wrap_future(self._pushes.call(push))
-
-    def finish(self) -> None:
-        """No more frames will be pushed: ``for frame in stream`` ends after the last one."""
-        self._raw.finish()
-
-    @property
-    def dropped(self) -> int:
-        """Frames that the policy has left out so far."""
-        return self._raw.dropped()
-
-    def close(self) -> None:
-        """Cancels what is in flight."""
-        super().close()
-        self._pushes.stop()
-
-    def __exit__(self, *raised: object) -> None:
-        try:
-            if raised[0] is None:
-                self.finish()
-                self._wait_for_answers()
-        finally:
-            self.close()
-
-    def _wait_for_answers(self) -> None:
-        """They can be taken later."""
-        answers: deque[Frame] = deque()
-        try:
-            if self._receiving is not None:
-                wait([self._receiving])  # a task that was cancelled has left it; its frame comes before the others
-            answers.extend(self)
-        finally:
-            answers.extend(self._received)
-            self._received = answers

@@ -7,6 +7,7 @@ void bind_service(pybind11::module_& module) {
     bind_particle_frame(module);
     bind_reconnect_handlers(module);
     bind_stream(module);
+    bind_publisher(module);
     bind_watcher(module);
     bind_recording(module);
     bind_recording_file(module);

@@ -64,6 +64,8 @@ struct BackendOptions {
         visit("device", &B::device, {.help = "index of the GPU"});
         visit("device_memory_limit", &B::device_memory_limit,
               {.help = "memory of the reconstruction on its GPU; 0: no limit", .unit = "bytes"});
+        visit("keep_lattice", &B::keep_lattice,
+              {.help = "whether meshes keep what their bricks are made of, so that they can be published"});
     }
 };
 

@@ -21,7 +21,7 @@ from support.particles import ball, particle_radius  # noqa: E402
 
 repository = pathlib.Path(__file__).parents[3]
 #: Lines of the file of tokens: role, name, token.
-tokens = {role: f"{role}-of-these-tests" for role in ("uploader", "watcher", "admin")}
+tokens = {role: f"{role}-of-these-tests" for role in ("uploader", "publisher", "watcher", "admin")}
 
 
 has_service = meniscusd.program != "" or command_line.program != ""

@@ -58,6 +58,12 @@ def test_the_loop_with_a_callback_takes_or_leaves_every_step(server, tmp_path):
     assert len(np.load(tmp_path / "last.npz")["velocity"]) > 100
 
 
+def test_a_surface_that_is_made_by_the_program_is_published(server):
+    lines = lines_of("own_surface.py", server.address)
+    answers = [re.fullmatch(r"frame (\d+): ([1-9]\d+) triangles", line).group(1) for line in lines]
+    assert [int(index) for index in answers] == list(range(20))
+
+
 def test_frames_made_with_numpy_alone_come_through_a_pipe(server):
     command = [sys.executable, "-B", "-W", "error", examples / "piped_frames.py"]
     with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE) as frames:

@@ -144,6 +144,7 @@ def test_wrong_options_never_crash(options, server, session):
         (_meniscus.connect, options, {}),
         (client.open_session, options),
         (client.stream, session.id, options, None),
+        (client.publish, session.id, options, None),
         (client.watch, session.id, options, None),
         (client.watch_particles, session.id, options, None),
         (client.snapshot, session.id, options),
@@ -172,7 +173,7 @@ def test_objects_cannot_be_made_past_their_makers(made):
 
 
 def test_all_classes_are_among_them():
-    assert len(CLASSES) == 14
+    assert len(CLASSES) == 15
 
 
 @pytest.mark.parametrize(

@@ -48,6 +48,17 @@ def test_a_role_may_do_its_own_part(connect, positions):
                 watcher.delete_session(session.id)
 
 
+def test_publishing_is_a_role_of_its_own(connect, positions):
+    surface = meniscus.reconstruct(positions, particle_radius, keep_lattice=True)
+    with connect(token=tokens["publisher"]) as publisher, publisher.session(particle_radius) as session:
+        with session.publish() as publishing:
+            publishing.push(surface)
+        assert publisher.snapshot(session).mesh.sha256() == surface.sha256()
+    with connect(token=tokens["uploader"]) as uploader, uploader.session(particle_radius) as session:
+        with refused("permission_denied", "PERMISSION_DENIED"), session.publish() as publishing:
+            publishing.push(surface)
+
+
 def test_a_session_of_somebody_else_is_not_there(connect):
     with connect() as admin, admin.session(particle_radius=1.0) as session:
         with connect(token=tokens["uploader"]) as uploader, refused("not_found"):

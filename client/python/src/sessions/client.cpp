@@ -152,6 +152,15 @@ void bind_client(py::module_& module) {
                          return client->stream(client::session_id_of(*client, session, request.stop), request);
                      });
              })
+        .def("publish",
+             [](const Connected& connected, const py::object& given, const Options& options,
+                const py::object& on_reconnect) {
+                 const std::shared_ptr<Client> client = connected.open();
+                 return open_publisher(
+                     options, on_reconnect, [&, session = text_of(given, "session")](const auto& request) {
+                         return client->publish(client::session_id_of(*client, session, request.stop), request);
+                     });
+             })
         .def("watch",
              [](const Connected& connected, const py::object& given, const Options& options,
                 const py::object& on_reconnect) {

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "sessions/publisher.hpp"
 #include "sessions/recording.hpp"
 #include "sessions/stream.hpp"
 #include "sessions/watcher.hpp"
@@ -40,6 +41,17 @@ Held<PushedStream> open_stream(const text_options::Options& options, const pybin
     return call_server([&](const std::stop_token& stop) {
         request.stop = stop;
         return Held<PushedStream>(new PushedStream(open(request)));
+    });
+}
+
+/// Opens a client::Publisher likewise.
+template <class Open>
+Held<SurfacePublisher> open_publisher(const text_options::Options& options, const pybind11::object& on_reconnect,
+                                      const Open& open) {
+    client::PublisherOptions request = publisher_options(options, on_reconnect);
+    return call_server([&](const std::stop_token& stop) {
+        request.stop = stop;
+        return Held<SurfacePublisher>(new SurfacePublisher(open(request)));
     });
 }
 

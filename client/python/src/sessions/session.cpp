@@ -48,6 +48,13 @@ void bind_session(py::module_& module) {
                  const auto open = [](Session& s, const client::StreamOptions& request) { return s.stream(request); };
                  return open_stream(options, on_reconnect, opened(held, open));
              })
+        .def("publish",
+             [](HeldSession& held, const Options& options, const py::object& on_reconnect) {
+                 const auto open = [](Session& s, const client::PublisherOptions& request) {
+                     return s.publish(request);
+                 };
+                 return open_publisher(options, on_reconnect, opened(held, open));
+             })
         .def("watch",
              [](HeldSession& held, const Options& options, const py::object& on_reconnect) {
                  const auto open = [](Session& s, const client::WatchOptions& request) { return s.watch(request); };

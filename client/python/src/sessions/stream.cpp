@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,11 +48,6 @@ client::ParticleBuffer copy_of(const GivenFrame& given, client::Stream& stream) 
     return buffer;
 }
 
-std::optional<std::uint64_t> index_of(const py::object& given) {
-    if (given.is_none()) return std::nullopt;
-    return whole_number(given, "index", std::numeric_limits<std::uint64_t>::max());
-}
-
 }  // namespace
 
 client::StreamOptions stream_options(const text_options::Options& options, const py::object& on_reconnect) {
@@ -66,32 +60,13 @@ client::StreamOptions stream_options(const text_options::Options& options, const
     return request;
 }
 
-std::uint64_t PushedStream::number_of(std::optional<std::uint64_t> given) const {
-    if (last_index_ == std::numeric_limits<std::uint64_t>::max())
-        throw InvalidInput("the last frame's index is " + std::to_string(*last_index_) +
-                           ", and none is greater: open another stream");
-    const std::uint64_t least = last_index_ ? *last_index_ + 1 : 0;
-    if (given && *given < least)
-        throw InvalidInput("index is " + std::to_string(*given) + ", must be at least " + std::to_string(least) +
-                           ": it rises from frame to frame");
-    return given.value_or(least);
-}
-
 std::uint64_t PushedStream::push(const py::object& positions, const py::object& levels, const py::sequence& arrays,
                                  const py::object& index, double time) {
     require_own_process();
     const std::optional<std::uint64_t> given = index_of(index);
     client::ParticleBuffer buffer = copy_of(given_frame(positions, levels, arrays), source_);
-    std::uint64_t pushed = 0;
-    wait_for(
-        [&] {
-            const std::lock_guard turn(push_turn_);
-            pushed = number_of(given);
-            source_.push(std::move(buffer), pushed, time);
-            last_index_ = pushed;
-        },
-        [this] { source_.cancel(); });
-    return pushed;
+    return send_in_turn(given,
+                        [this, &buffer, time](std::uint64_t sent) { source_.push(std::move(buffer), sent, time); });
 }
 
 bool PushedStream::try_push(const py::object& positions, const py::object& levels, const py::sequence& arrays,
@@ -101,16 +76,11 @@ bool PushedStream::try_push(const py::object& positions, const py::object& level
     const GivenFrame frame = given_frame(positions, levels, arrays);
     const std::unique_lock turn(push_turn_, std::try_to_lock);
     if (!turn) return false;
-    const std::uint64_t number = number_of(given);
+    const std::uint64_t number = index_.next(given);
     // With the interpreter's lock: it copies, where there is room, and waits for nothing.
     if (!source_.try_push(frame.positions, number, time, frame.levels, frame.arrays)) return false;
-    last_index_ = number;
+    index_.note(number);
     return true;
-}
-
-void PushedStream::finish() {
-    require_own_process();
-    without_lock([this] { source_.finish(); });
 }
 
 void bind_stream(py::module_& module) {

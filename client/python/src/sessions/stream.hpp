@@ -4,11 +4,9 @@
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
-#include <mutex>
-#include <optional>
 
 #include "meniscus/client/stream.hpp"
-#include "sessions/frame_source.hpp"
+#include "sessions/frame_upload.hpp"
 #include "text_options/option_reader.hpp"
 
 namespace meniscus::python {
@@ -17,9 +15,9 @@ namespace meniscus::python {
 client::StreamOptions stream_options(const text_options::Options& options, const pybind11::object& on_reconnect);
 
 /// The class _meniscus.Stream.
-class PushedStream : public FrameSource<client::Stream> {
+class PushedStream : public FrameUpload<client::Stream> {
 public:
-    using FrameSource::FrameSource;
+    using FrameUpload::FrameUpload;
 
     /// Copies the frame with the interpreter's lock, and waits without it. Ctrl-C cancels the stream.
     /// index: None for the one after the last. Returns it.
@@ -27,15 +25,6 @@ public:
                        const pybind11::sequence& arrays, const pybind11::object& index, double time);
     bool try_push(const pybind11::object& positions, const pybind11::object& levels, const pybind11::sequence& arrays,
                   const pybind11::object& index, double time);
-    void finish();
-    std::uint64_t dropped() const { return source_.dropped(); }
-
-private:
-    /// In a turn. Throws InvalidInput for one that is not above those before.
-    std::uint64_t number_of(std::optional<std::uint64_t> given) const;
-
-    std::mutex push_turn_;  ///< for what follows
-    std::optional<std::uint64_t> last_index_;
 };
 
 }  // namespace meniscus::python

@@ -22,6 +22,13 @@ struct MeshHandle {
     std::variant<Statistics, std::shared_ptr<const client::ReceivedFrame>> origin;
 };
 
+/// The figures of the frame that the mesh is of.
+inline const Statistics& statistics_of(const MeshHandle& handle) {
+    if (const auto* received = std::get_if<std::shared_ptr<const client::ReceivedFrame>>(&handle.origin))
+        return (*received)->statistics;
+    return std::get<Statistics>(handle.origin);
+}
+
 /// mesh: an object of that class.
 inline const Mesh& mesh_of(const pybind11::object& mesh) {
     return *pybind11::cast<const MeshHandle&>(mesh).mesh;

@@ -32,12 +32,6 @@ static_assert(sizeof(MeshBrick) == brick_numbers * sizeof(std::int32_t) && std::
     throw InvalidInput("the pickled mesh is damaged: " + what);
 }
 
-const Statistics& statistics_of(const MeshHandle& handle) {
-    if (const auto* received = std::get_if<std::shared_ptr<const client::ReceivedFrame>>(&handle.origin))
-        return (*received)->statistics;
-    return std::get<Statistics>(handle.origin);
-}
-
 Statistics read_figures(const std::string& bytes) {
     const std::optional<Statistics> figures = figures_of(bytes);
     if (!figures) refuse("its figures are no message");

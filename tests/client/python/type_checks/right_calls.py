@@ -19,6 +19,8 @@ client = meniscus.Client("127.0.0.1:50051", wait=5)
 with client.session(0.1, name="dam", up_axis="z", field="color", iso=0.5) as session:
     with session.stream(attributes={"velocity": 12}, policy="every-nth", nth=2, reconnect=30) as stream:
         index: int = stream.push(x, attributes={"velocity": x}, time=np.float64(1.0), index=3)
+    with client.publish(session, codec="entropy", parts=2, part=1, run=7) as publisher:
+        place: int = publisher.push(meniscus.reconstruct(x, 0.1, keep_lattice=True), time=1, index=np.int64(2))
     for frame in client.watch(session, max_level=2, viewpoint=(0, 0, 1), attributes=["velocity"]):
         size: float = frame.mesh.area + frame.mesh.volume + float(frame.mesh.bounds[0, 0])
     for info in client.sessions():

@@ -40,6 +40,9 @@ session.watch_particles(max_level=1)  # wrong
 stream.push("file.vtk")  # wrong
 stream.push(x, time="now")  # wrong
 stream.apush(x, velocity=x)  # wrong
+session.publish(meshes=False)  # wrong
+session.publish().push(x)  # wrong
+client.publish("dam", attribute_bits="all")  # wrong
 meniscus.read_particles(5)  # wrong
 meniscus.show("dam")  # wrong
 meniscus.open(5)  # wrong

@@ -45,6 +45,16 @@ struct PublisherOptions {
     std::chrono::milliseconds route_check{2000};
     ReconnectHandler on_reconnect{};
     std::stop_token stop{};
+
+    /// The options that C and Python set by name.
+    template <class Visit>
+    static void rows(const Visit& visit) {
+        using P = PublisherOptions;
+        visit("codec", &P::codec, {.help = "codec of the bricks: packed, the fastest, or entropy, the smallest"});
+        visit("normal_bits", &P::normal_bits,
+              {.help = "bits per component of the normals, 2 to 16; 0: no normals", .range = {.least = 0.0}});
+        upload_rows<P>(visit);
+    }
 };
 
 /// Publishes surfaces, in order, to a session that no particles come to. The session's settings are those that the

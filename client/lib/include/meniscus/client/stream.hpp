@@ -43,6 +43,24 @@ constexpr std::string_view name_of(UploadPolicy policy) {
     return {};
 }
 
+/// Rows of the options that streams of particles and publishers of surfaces have in common.
+template <class Options, class Visit>
+void upload_rows(const Visit& visit) {
+    visit("waiting_limit", &Options::waiting_limit,
+          {.help = "received frames that wait to be taken, at most; 0: no limit"});
+    visit("policy", &Options::policy,
+          {.help = "what the server does with frames that come faster than they are reconstructed"});
+    visit("nth", &Options::nth, {.help = "one of this many frames is reconstructed", .when = "--policy every-nth"});
+    visit("parts", &Options::parts,
+          {.help = "streams that each send a part of every frame", .range = {.least = 1.0}, .when = "--run"});
+    visit("part", &Options::part, {.help = "number of this one, counted from 0", .when = "--parts"});
+    visit("run", &Options::run, {.help = "a number that the streams of all parts share, and no others; 0: at random"});
+    visit("reconnect", &Options::reconnect,
+          {.help = "time for which a server that is out of reach is tried again; 0: no retries", .unit = "s"});
+    visit("route_check", &Options::route_check,
+          {.help = "time between looks whether the session goes on with another server; 0: never", .unit = "s"});
+}
+
 struct StreamOptions {
     bool receive_meshes = true;
     int normal_bits = 8;  ///< 2 to 16, 0 for none
@@ -95,19 +113,7 @@ struct StreamOptions {
                        "less exact"});
         visit("codec", &S::codec,
               {.help = "codec of the meshes: packed, the fastest, entropy, the smallest, or draco"});
-        visit("waiting_limit", &S::waiting_limit,
-              {.help = "received frames that wait to be taken, at most; 0: no limit"});
-        visit("policy", &S::policy,
-              {.help = "what the server does with frames that come faster than they are reconstructed"});
-        visit("nth", &S::nth, {.help = "one of this many frames is reconstructed", .when = "--policy every-nth"});
-        visit("parts", &S::parts,
-              {.help = "streams that each send a part of every frame", .range = {.least = 1.0}, .when = "--run"});
-        visit("part", &S::part, {.help = "number of this one, counted from 0", .when = "--parts"});
-        visit("run", &S::run, {.help = "a number that the streams of all parts share, and no others; 0: at random"});
-        visit("reconnect", &S::reconnect,
-              {.help = "time for which a server that is out of reach is tried again; 0: no retries", .unit = "s"});
-        visit("route_check", &S::route_check,
-              {.help = "time between looks whether the session goes on with another server; 0: never", .unit = "s"});
+        upload_rows<S>(visit);
     }
 };
 
