@@ -1,27 +1,7 @@
 // Watchers, and what else is of sessions of others, in a build without the service: `meniscus push` has no such thing.
-#include "../src/result.hpp"
-#include "meniscus/error.hpp"
-#include "meniscus/meniscus.h"
+#include "absent_function.hpp"
 
 using namespace meniscus::c;
-
-namespace {
-
-meniscus_result absent(const char* function) {
-    return guarded([function]() -> meniscus_result {
-        throw meniscus::NotBuilt(function,
-                                 "the service: build it without -DMENISCUS_SERVICE=OFF, where gRPC is installed");
-    });
-}
-
-/// A function that would give an object.
-template <class Object>
-meniscus_result absent(const char* function, Object** object) {
-    if (object != nullptr) *object = nullptr;
-    return absent(function);
-}
-
-}  // namespace
 
 meniscus_result meniscus_client_delete_session(meniscus_client* /*client*/, const char* /*session_id*/) {
     return absent(__func__);

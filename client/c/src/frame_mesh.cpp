@@ -11,6 +11,7 @@ meniscus_result meniscus_frame_mesh(const meniscus_frame* frame, meniscus_mesh* 
         filled.forget_arrays();
         filled.content = {};
         filled.content = received.mesh();
+        filled.statistics = received.statistics;
         return MENISCUS_OK;
     });
 }

@@ -6,9 +6,11 @@
 
 #include "meniscus/meniscus.h"
 #include "meniscus/mesh.hpp"
+#include "meniscus/statistics.hpp"
 
 struct meniscus_mesh {
     meniscus::Mesh content;
+    meniscus::Statistics statistics;  ///< of the frame that it is of
     // Empty until they are asked for.
     std::vector<double> vertices;
     std::vector<float> vertices_float;

@@ -29,6 +29,7 @@ const std::vector<std::string>& known_names() {
         text_options::read_connection(reader);
         text_options::read_open(reader);
         text_options::read_stream(reader);
+        text_options::read_publisher(reader);
         text_options::read_watch(reader);
         return reader.known();
     }();

@@ -41,6 +41,7 @@ meniscus_result meniscus_reconstruct(meniscus_reconstructor* reconstructor, cons
         const meniscus::ParticleFrame frame = read_frame(particles, used.buffers);
         filled.forget_arrays();
         used.content.reconstruct(frame, filled.content);
+        filled.statistics = used.content.statistics();
         return MENISCUS_OK;
     });
 }

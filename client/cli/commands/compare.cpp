@@ -1,5 +1,6 @@
 // meniscus compare: the distance of two meshes, and the components that only one of them has.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -12,11 +13,13 @@
 #include "cli/options/named_option.hpp"
 #include "cli/options/option_group.hpp"
 #include "cli/options/read_limits_option.hpp"
+#include "cli/print/statistics_json.hpp"
 #include "cli/sequence/distinct_files.hpp"
 #include "cli/surfaces/mesh_output.hpp"
 #include "formats/bytes/atomic_file.hpp"
 #include "formats/bytes/standard_streams.hpp"
 #include "formats/meshes/mesh_file.hpp"
+#include "formats/recordings/brick_file.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/settings.hpp"
 
@@ -69,16 +72,32 @@ compare::SurfaceView view(const formats::TriangleMesh& mesh) {
     return {mesh.positions, mesh.triangles};
 }
 
-formats::TriangleMesh read_surface(const CompareOptions& options, const std::string& path) {
-    formats::TriangleMesh mesh = formats::read_mesh(path, options.format_of(path), options.limits);
-    compare::validate(view(mesh), formats::input_name(path));
-    return mesh;
+struct ReadSurface {
+    formats::TriangleMesh mesh;
+    MeshHashes hashes;  ///< of bricks, which alone have the lattice
+};
+
+ReadSurface read_surface(const CompareOptions& options, const std::string& path) {
+    const std::string name = formats::input_name(path);
+    const std::optional<MeshFormat> named = options.format_of(path);
+    ReadSurface surface;
+    if ((named ? *named : formats::mesh_format_of(path)) == MeshFormat::bricks) {
+        const Mesh mesh = formats::read_bricks(name, formats::read_input(path, options.limits.most_bytes)).mesh();
+        surface = {formats::to_triangles(mesh), MeshHashes(mesh)};
+    } else {
+        surface.mesh = formats::read_mesh(path, named, options.limits);
+    }
+    compare::validate(view(surface.mesh), name);
+    return surface;
 }
 
-void print_side(std::ostream& text, const char* name, const std::string& path, const compare::Side& side) {
+void print_side(std::ostream& text, const char* name, const std::string& path, const compare::Side& side,
+                const MeshHashes& hashes) {
     text << name << formats::input_name(path) << ": " << side.triangles << " triangles, " << side.vertices
          << " vertices, " << side.parts.size() << " components, "
          << (side.defects.closed() ? "closed" : "NOT CLOSED: " + side.defects.text()) << '\n';
+    if (hashes.mesh_sha256.empty()) return;
+    text << "           mesh_sha256 " << hashes.mesh_sha256 << ", bricks_sha256 " << hashes.bricks_sha256 << '\n';
 }
 
 void print_distance(std::ostream& text, const char* name, const compare::DistanceSummary& distance,
@@ -100,10 +119,11 @@ void print_missing(std::ostream& text, const char* name, const compare::Side& si
          << " c)\n";
 }
 
-void print(const CompareOptions& options, const compare::Comparison& comparison, const std::optional<double>& cell) {
+void print(const CompareOptions& options, const compare::Comparison& comparison,
+           const std::array<MeshHashes, 2>& hashes, const std::optional<double>& cell) {
     std::ostream& text = out(options);
-    print_side(text, "A          ", options.a, comparison.a);
-    print_side(text, "B          ", options.b, comparison.b);
+    print_side(text, "A          ", options.a, comparison.a, hashes[0]);
+    print_side(text, "B          ", options.b, comparison.b, hashes[1]);
     text << "triangles  " << comparison.triangle_ratio() << " (A over B)\n";
     print_distance(text, "distance   rms ", comparison.distance(), cell);
     print_distance(text, "  A to B   rms ", comparison.a.distance, cell);
@@ -129,11 +149,12 @@ void check_files(const CompareOptions& options) {
 void compare_meshes(const CompareOptions& options) {
     const std::optional<double> cell = cell_edge(options);
     check_files(options);
-    const formats::TriangleMesh a = read_surface(options, options.a);
-    const formats::TriangleMesh b = read_surface(options, options.b);
-    const compare::Comparison comparison = compare::compare_surfaces(view(a), view(b), options.samples);
-    print(options, comparison, cell);
-    if (!options.json.empty()) formats::write_file(options.json, to_json(comparison, cell).dump(2) + "\n");
+    const ReadSurface a = read_surface(options, options.a);
+    const ReadSurface b = read_surface(options, options.b);
+    const compare::Comparison comparison = compare::compare_surfaces(view(a.mesh), view(b.mesh), options.samples);
+    const std::array hashes{a.hashes, b.hashes};
+    print(options, comparison, hashes, cell);
+    if (!options.json.empty()) formats::write_file(options.json, to_json(comparison, hashes, cell).dump(2) + "\n");
 }
 
 }  // namespace

@@ -20,21 +20,26 @@ Json distances(const compare::Comparison& comparison, double unit) {
     return out;
 }
 
-Json describe(const compare::Side& side) {
+Json describe(const compare::Side& side, const MeshHashes& hashes) {
     const compare::Defects& d = side.defects;
-    return {{"vertices", side.vertices},
-            {"triangles", side.triangles},
-            {"components", side.parts.size()},
-            {"area", side.area},
-            {"samples", side.samples},
-            {"closed", d.closed()},
-            {"defects",
-             {{"repeated_vertices", d.repeated_vertices},
-              {"unused_vertices", d.unused_vertices},
-              {"degenerate_triangles", d.degenerate_triangles},
-              {"unbalanced_edges", d.unbalanced_edges},
-              {"crowded_edges", d.crowded_edges},
-              {"torn_vertices", d.torn_vertices}}}};
+    Json out{{"vertices", side.vertices},
+             {"triangles", side.triangles},
+             {"components", side.parts.size()},
+             {"area", side.area},
+             {"samples", side.samples},
+             {"closed", d.closed()},
+             {"defects",
+              {{"repeated_vertices", d.repeated_vertices},
+               {"unused_vertices", d.unused_vertices},
+               {"degenerate_triangles", d.degenerate_triangles},
+               {"unbalanced_edges", d.unbalanced_edges},
+               {"crowded_edges", d.crowded_edges},
+               {"torn_vertices", d.torn_vertices}}}};
+    if (!hashes.mesh_sha256.empty()) {
+        out["mesh_sha256"] = hashes.mesh_sha256;
+        out["bricks_sha256"] = hashes.bricks_sha256;
+    }
+    return out;
 }
 
 Json missing(const compare::Side& side, double cell_size) {
@@ -49,10 +54,11 @@ Json missing(const compare::Side& side, double cell_size) {
 
 }  // namespace
 
-Json to_json(const compare::Comparison& comparison, const std::optional<double>& cell_size) {
+Json to_json(const compare::Comparison& comparison, const std::array<MeshHashes, 2>& hashes,
+             const std::optional<double>& cell_size) {
     Json out;
-    out["a"] = describe(comparison.a);
-    out["b"] = describe(comparison.b);
+    out["a"] = describe(comparison.a, hashes[0]);
+    out["b"] = describe(comparison.b, hashes[1]);
     out["triangle_ratio"] = comparison.triangle_ratio();
     out["distance"] = distances(comparison, 1.0);
     if (!cell_size) return out;

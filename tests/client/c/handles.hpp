@@ -39,6 +39,7 @@ using CReconstructor = Owned<meniscus_reconstructor, meniscus_reconstructor_dest
 using CMesh = Owned<meniscus_mesh, meniscus_mesh_destroy>;
 using CClient = Owned<meniscus_client, meniscus_client_destroy>;
 using CSession = Owned<meniscus_session, meniscus_session_destroy>;
+using CPublisher = Owned<meniscus_publisher, meniscus_publisher_destroy>;
 using CWatcher = Owned<meniscus_watcher, meniscus_watcher_destroy>;
 using CFrame = Owned<meniscus_frame, meniscus_frame_destroy>;
 

@@ -7,26 +7,15 @@
 #include <optional>
 #include <thread>
 
-#include "../../server/process.hpp"
-#include "handles.hpp"
 #include "meniscus/meniscus.hpp"
 #include "support/particles.hpp"
+#include "through_server.hpp"
 
 namespace meniscus::test {
 namespace {
 
-using server::test::on_free_port;
-using server::test::Process;
-
-constexpr double patience = 30.0;  ///< seconds, for what comes at once
-
-class CServer : public testing::Test {
+class CServer : public CThroughServer {
 protected:
-    CServer() : process_(on_free_port()), address_(process_.address()) {
-        EXPECT_EQ(meniscus_client_connect(address_.c_str(), nullptr, client_.out()), MENISCUS_OK)
-            << meniscus_error_message();
-    }
-
     CSession open(std::initializer_list<std::pair<const char*, const char*>> more = {}) {
         const COptions options = options_of({{"particle-radius", "0.025"}});
         for (const auto& [name, value] : more) EXPECT_EQ(meniscus_options_set(options.get(), name, value), MENISCUS_OK);
@@ -35,36 +24,13 @@ protected:
             << meniscus_error_message();
         return session;
     }
-    CWatcher watch(const CSession& session) {
-        CWatcher watcher;
-        EXPECT_EQ(meniscus_watcher_open(client_.get(), meniscus_session_id(session.get()), nullptr, watcher.out()),
-                  MENISCUS_OK)
-            << meniscus_error_message();
-        return watcher;
-    }
+    CWatcher watch(const CSession& session) { return CThroughServer::watch(meniscus_session_id(session.get())); }
     static meniscus_result push(const CSession& session, const Particles& particles, std::uint64_t index) {
         meniscus_particles frame = MENISCUS_PARTICLES_INIT;
         frame.count = particles.count();
         frame.positions = particles.positions.data();
         return meniscus_session_push(session.get(), &frame, index, 0.5 * static_cast<double>(index));
     }
-    static std::string sha256_of(const CFrame& frame) {
-        const CMesh mesh = empty_mesh();
-        EXPECT_EQ(meniscus_frame_mesh(frame.get(), mesh.get()), MENISCUS_OK) << meniscus_error_message();
-        return sha256(mesh);
-    }
-    /// Whether the server has a session of this id, by watching it.
-    bool is_there(const std::string& id) {
-        CWatcher watcher;
-        CFrame frame;
-        meniscus_result result = meniscus_watcher_open(client_.get(), id.c_str(), nullptr, watcher.out());
-        if (result == MENISCUS_OK) result = meniscus_watcher_next(watcher.get(), 0.1, frame.out());
-        return result != MENISCUS_NOT_FOUND;
-    }
-
-    Process process_;
-    std::string address_;
-    CClient client_;
 };
 
 TEST_F(CServer, GivesTheMeshesOfTheProcessInOrder) {

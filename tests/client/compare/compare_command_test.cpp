@@ -76,6 +76,42 @@ TEST_F(CompareCommand, TakesTheCellsOfReconstructUnlessToldOtherwise) {
     EXPECT_EQ(figures({"-r", "4"})["cell_size"], 2.0);
 }
 
+TEST_F(CompareCommand, HasTheHashesOfBricksAsTheReconstructionHasThem) {
+    std::string particles;
+    for (int i = 0; i < 6 * 6 * 6; ++i)
+        for (const int place : {i % 6, i / 6 % 6, i / 36}) {
+            const float coordinate = 0.1F * static_cast<float>(place);
+            particles.append(reinterpret_cast<const char*>(&coordinate), sizeof coordinate);
+        }
+    const std::string input = write("particles.xyz", particles);
+    const auto reconstructed = [&](const std::string& name) {
+        const std::string stats = (directory_ / "stats.json").string();
+        const test::ProcessResult result =
+            test::run_process(MENISCUS_CLI, {"reconstruct", input, "-r", "0.05", "-q", "--backend", "cpu", "--stats",
+                                             stats, "-o", (directory_ / name).string()});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return nlohmann::json::parse(formats::read_file(stats));
+    };
+    const auto stats = reconstructed("a.bricks");
+    reconstructed("b.ply");
+    const std::string json = (directory_ / "figures.json").string();
+    const std::string a = (directory_ / "a.bricks").string();
+    const test::ProcessResult result = run({a, (directory_ / "b.ply").string(), "--samples", "100", "--json", json});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto figures = nlohmann::json::parse(formats::read_file(json));
+    for (const char* hash : {"mesh_sha256", "bricks_sha256"}) {
+        ASSERT_EQ(stats.at(hash).get<std::string>().size(), 64U);
+        EXPECT_EQ(figures["a"].at(hash), stats.at(hash));
+        EXPECT_FALSE(figures["b"].contains(hash)) << "a file of triangles has no lattice";
+        EXPECT_NE(result.out.find(hash + (" " + stats.at(hash).get<std::string>())), std::string::npos) << result.out;
+    }
+    const test::ProcessResult piped =
+        test::run_process(MENISCUS_CLI, {"compare", "-", a, "--input-format", "bricks", "--samples", "100"}, {.in = a});
+    EXPECT_EQ(piped.exit_code, 0) << piped.err;
+    const std::size_t first = piped.out.find("bricks_sha256");
+    EXPECT_NE(piped.out.find("bricks_sha256", first + 1), std::string::npos) << piped.out;
+}
+
 TEST_F(CompareCommand, ReadsOneMeshFromStandardInput) {
     const std::string a = write("a.obj", cube().obj());
     const std::string b = write("b.txt", cube().obj());

@@ -188,7 +188,8 @@ typedef struct meniscus_reconstructor meniscus_reconstructor;
 /* options: the settings, by the names of their flags in client/README.md without the dashes before them, as cell-size:
  * particle-radius is required, normals is true or false, attribute has names with spaces between them, or all. And
  * backend (auto, cpu or cuda), threads (0: one for each processor), memory-limit (bytes, 0: none), device (which GPU),
- * device-memory-limit. */
+ * device-memory-limit, keep-lattice (true: meshes keep what their bricks are made of, for meniscus_publisher_push();
+ * false, the default; since 0.2). */
 MENISCUS_API meniscus_result meniscus_reconstructor_create(const meniscus_options* options,
                                                            meniscus_reconstructor** reconstructor);
 MENISCUS_API void meniscus_reconstructor_destroy(meniscus_reconstructor* reconstructor);
@@ -204,14 +205,17 @@ MENISCUS_API meniscus_result meniscus_reconstructor_statistics(const meniscus_re
 /* A library that was built without the service starts a program that has it for each session, `meniscus push`: the one
  * that MENISCUS_PROGRAM names, or else `meniscus` in PATH, which meniscus_client_connect() looks for; the server is
  * asked when the session is opened. Frames then have index, time and figures, but no mesh. What else is not to be had
- * through that program returns MENISCUS_UNIMPLEMENTED, with a sentence: watchers, meniscus_client_delete_session(),
- * meniscus_session_leave(), meniscus_session_try_push(), meniscus_frame_mesh(), and the options timeout, route-check
- * and ephemeral set to false. Options about meshes change nothing there. */
+ * through that program returns MENISCUS_UNIMPLEMENTED, with a sentence: publishers, watchers,
+ * meniscus_client_delete_session(), meniscus_session_leave(), meniscus_session_try_push(), meniscus_frame_mesh(), and
+ * the options timeout, route-check and ephemeral set to false. Options about meshes change nothing there. */
 
 /* A connection to one meniscusd; any thread may use it at any time. Sessions and watchers outlive it. */
 typedef struct meniscus_client meniscus_client;
 /* A session of the server with its one stream: particles go up, meshes come down. */
 typedef struct meniscus_session meniscus_session;
+/* A session of the server to which this program publishes surfaces that it has made itself. Since 0.2, as are all of
+ * its functions. */
+typedef struct meniscus_publisher meniscus_publisher;
 /* Receives the meshes of somebody's session: always the newest. */
 typedef struct meniscus_watcher meniscus_watcher;
 /* A received frame, with the mesh still encoded. */
@@ -268,6 +272,34 @@ MENISCUS_API meniscus_result meniscus_session_next(meniscus_session* session, do
 MENISCUS_API meniscus_result meniscus_session_cancel(meniscus_session* session);
 /* Frames that the policy has left out so far. */
 MENISCUS_API meniscus_result meniscus_session_dropped(const meniscus_session* session, uint64_t* frames);
+
+/* options: the settings, which are those that the surfaces are made with, and those of the session, as for
+ * meniscus_session_open(); of the publisher: codec (of the bricks: packed, the default and the fastest, or entropy, the
+ * smallest), normal-bits, attribute-bits (default 8), waiting-limit, policy, nth, reconnect; parts (publishers of the
+ * session with this id that each have some of the bricks of every frame; no brick has two owners), part, run. A session
+ * takes particles or surfaces, and not both. Where the server has tokens, this needs one of the role publisher. */
+MENISCUS_API meniscus_result meniscus_publisher_open(meniscus_client* client, const meniscus_options* options,
+                                                     meniscus_publisher** publisher);
+/* Ends publisher and session as meniscus_session_destroy() does. */
+MENISCUS_API void meniscus_publisher_destroy(meniscus_publisher* publisher);
+/* Lets the session live on, as meniscus_session_leave() does. */
+MENISCUS_API meniscus_result meniscus_publisher_leave(meniscus_publisher* publisher);
+/* The session's id, for watchers. Valid as long as the publisher; NULL for NULL. */
+MENISCUS_API const char* meniscus_publisher_session_id(const meniscus_publisher* publisher);
+/* Publishes a mesh of meniscus_reconstruct(), of a reconstructor with the option keep-lattice, with its spray, its
+ * attributes and its figures: the bricks are encoded here. Waits while the server does not take more. That the surface
+ * is closed is the caller's promise. `index`, refusals and threads are those of meniscus_session_push(). */
+MENISCUS_API meniscus_result meniscus_publisher_push(meniscus_publisher* publisher, const meniscus_mesh* mesh,
+                                                     uint64_t index, double simulation_time);
+/* No more surfaces will be pushed; next() then ends after the last one. */
+MENISCUS_API meniscus_result meniscus_publisher_finish(meniscus_publisher* publisher);
+/* Waits as meniscus_session_next() does, for the answer that watchers have the next frame: index, time and figures. */
+MENISCUS_API meniscus_result meniscus_publisher_next(meniscus_publisher* publisher, double timeout_seconds,
+                                                     meniscus_frame** frame);
+/* Ends it at once, as meniscus_session_cancel() does. */
+MENISCUS_API meniscus_result meniscus_publisher_cancel(meniscus_publisher* publisher);
+/* Frames that the policy has left out so far. */
+MENISCUS_API meniscus_result meniscus_publisher_dropped(const meniscus_publisher* publisher, uint64_t* frames);
 
 /* options: max-level (1 to 3), normal-bits (2 to 16, 0 for none), normals-by (as above), position-bits, codec (as
  * above), region ("X0 Y0 Z0 X1 Y1 Z1", world units), spray (true or false: whether the particles that the surface
