@@ -1,10 +1,11 @@
 // Which codec each receiver is sent, and that it makes no other mesh.
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -251,10 +252,8 @@ TEST_F(Codecs, OfRecordingsThatAreEncodedAgainChangeNoMesh) {
         const Mesh mesh = received[i].mesh();
         const Mesh recorded_mesh = as_recorded.next()->mesh();
         EXPECT_EQ(mesh_sha256(mesh), local_sha256(frames_[i]));
-        ASSERT_EQ(mesh.normals.size(), recorded_mesh.normals.size());
-        EXPECT_EQ(std::memcmp(mesh.normals.data(), recorded_mesh.normals.data(),
-                              mesh.normals.size() * sizeof(mesh.normals[0])),
-                  0);
+        EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(mesh.normals)),
+                                       std::as_bytes(std::span(recorded_mesh.normals))));
     }
 }
 
