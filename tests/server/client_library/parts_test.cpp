@@ -165,7 +165,8 @@ TEST(PartsOfFrames, ComeWholeAndOnceWhereAnyOfTheirConnectionsIsCut) {
                     answered.push_back(dropped.index);
                 }
                 answered.push_back(frame->index);
-                if (frame->index % 9 == 2 * p) proxy.cut();
+                // Not behind the last one: a part that does not hear of the end of all waits for the others.
+                if (frame->index % 9 == 2 * p && frame->index + 1 < count) proxy.cut();
             }
             pusher.join();
             for (std::size_t i = 1; i < answered.size(); ++i)
