@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Optional, TypeVar
 
 from . import _meniscus
 from .errors import InvalidInput
 from .options import AttributeRequest, attribute_text, option_texts
 from .publisher import Publisher
-from .receiving import Handler
+from .receiving import Frames, Handler
 from .stream import Stream
 from .watcher import ParticleWatcher, Watcher
 
@@ -27,10 +27,8 @@ def open_stream(
 ) -> Stream:
     texts = option_texts({"meshes": meshes, **options})
     texts["attribute"] = attribute_text(attributes)
-    handler = _handler(on_reconnect)
-    stream = Stream(open_raw(texts, handler), meshes and not options.get("part"))  # meshes come to part 0 alone
-    stream._handler = handler
-    return stream
+    has_meshes = meshes and not options.get("part")  # they come to part 0 alone
+    return _opened(lambda raw: Stream(raw, has_meshes), open_raw, texts, on_reconnect)
 
 
 def open_publisher(
@@ -39,10 +37,7 @@ def open_publisher(
     on_reconnect: Optional[ReconnectHandler] = None,
     **options: Any,
 ) -> Publisher:
-    handler = _handler(on_reconnect)
-    publisher = Publisher(open_raw(option_texts(options), handler))
-    publisher._handler = handler
-    return publisher
+    return _opened(Publisher, open_raw, option_texts(options), on_reconnect)
 
 
 def open_watcher(
@@ -54,10 +49,7 @@ def open_watcher(
 ) -> Watcher:
     texts = option_texts(options)
     texts["attribute"] = attribute_text(attributes)
-    handler = _handler(on_reconnect)
-    watcher = Watcher(open_raw(texts, handler))
-    watcher._handler = handler
-    return watcher
+    return _opened(Watcher, open_raw, texts, on_reconnect)
 
 
 def open_particle_watcher(
@@ -66,10 +58,24 @@ def open_particle_watcher(
     on_reconnect: Optional[ReconnectHandler] = None,
     **options: Any,
 ) -> ParticleWatcher:
+    return _opened(ParticleWatcher, open_raw, option_texts(options), on_reconnect)
+
+
+Raw = TypeVar("Raw")
+Source = TypeVar("Source", bound=Frames[Any])
+
+
+def _opened(
+    make: Callable[[Raw], Source],
+    open_raw: Callable[[dict[str, str], Optional[ReconnectHandler]], Raw],
+    texts: dict[str, str],
+    on_reconnect: Optional[ReconnectHandler],
+) -> Source:
+    """What is made of the C++ side's object, which calls the handler until the end of it."""
     handler = _handler(on_reconnect)
-    watcher = ParticleWatcher(open_raw(option_texts(options), handler))
-    watcher._handler = handler
-    return watcher
+    source = make(open_raw(texts, handler))
+    source._handler = handler
+    return source
 
 
 def _handler(on_reconnect: Optional[ReconnectHandler]) -> Optional[Handler]:

@@ -154,7 +154,6 @@ __device__ void write_block(const PackedForm& form, const PackedCounts& counts, 
 
 __device__ void write_vertices(const LatticeOnDevice& mesh, const PackedForm& form, const PackedPlaces& fields,
                                const WarpBlocks& blocks, std::byte* out) {
-    const Octahedron octahedron(form.normal_bits != 0 ? form.normal_bits : 2);
     blocks.each_vertex([&](bool exists, const KeptBlock& kept, std::uint32_t n, const BrickVertex& vertex) {
         const std::uint64_t number = std::uint64_t{kept.before.vertices} + n;
         const std::uint64_t middles =
@@ -167,10 +166,10 @@ __device__ void write_vertices(const LatticeOnDevice& mesh, const PackedForm& fo
         write_together(out, exists, fields.edges + middles + static_cast<std::uint64_t>(form.offset_bits) * number,
                        offset, form.offset_bits);
         if (form.normal_bits == 0) return;
+        const Octahedron octahedron(form.normal_bits);
         const std::uint32_t code = octahedron.code(octahedron.point(normal));
         write_together(out, exists, fields.normals + static_cast<std::uint64_t>(2 * form.normal_bits) * number,
-                       std::uint64_t{code & 0xFFFF} | std::uint64_t{code >> 16} << form.normal_bits,
-                       2 * form.normal_bits);
+                       normal_field(code, form.normal_bits), 2 * form.normal_bits);
     });
 }
 

@@ -69,7 +69,8 @@ void write_packed(const LatticeBrick& brick, BitWriter& bits, std::vector<std::b
         for (int left = lattice.edges[place].count(); left > 0; --left) bits.put(*offset++, brick.offset_bits);
     }
     bits.reserve(static_cast<std::size_t>(2 * brick.normal_bits) * brick.normals.size());
-    for (const std::uint32_t normal : brick.normals) put_normal(normal, brick.normal_bits, bits);
+    for (const std::uint32_t normal : brick.normals)
+        bits.put(normal_field(normal, brick.normal_bits), 2 * brick.normal_bits);
     bits.append_to(out);
     for (const std::vector<std::byte>& values : brick.attributes) out.insert(out.end(), values.begin(), values.end());
 }

@@ -25,11 +25,9 @@ MENISCUS_HD void put_signs(BlockMask inside, BlockMask points, Bits& bits) {
         bits.put(gather_bits(inside, points), popcount(points));
 }
 
-/// code: Octahedron::code().
-template <class Bits>
-MENISCUS_HD void put_normal(std::uint32_t code, int normal_bits, Bits& bits) {
-    bits.put(code & 0xFFFF, normal_bits);
-    bits.put(code >> 16, normal_bits);
+/// A normal's field of 2 normal_bits bits. code: Octahedron::code().
+MENISCUS_HD inline std::uint64_t normal_field(std::uint32_t code, int normal_bits) {
+    return std::uint64_t{code & 0xFFFF} | std::uint64_t{code >> 16} << normal_bits;
 }
 
 /// How many fields a brick has.

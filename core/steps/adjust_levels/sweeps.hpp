@@ -87,11 +87,12 @@ public:
         }
     }
 
-    /// Whether one block sweeps over so many words no slower than the grid, which waits for itself at each search.
+    /// One block is no slower than the grid as long as its threads share the edges of each word, since the grid waits
+    /// for itself at each search.
     __device__ static bool suit_one_block(std::uint64_t words) { return can_share_edges(words, block_threads); }
 
 private:
-    /// Whether threads are left over, so that six share the twelve edges of a word's cells.
+    /// Threads that are left over share the twelve edges of a word's cells, six of them each word.
     __device__ static bool can_share_edges(std::uint64_t words, std::uint64_t threads) {
         return words * edge_groups <= 2 * threads;
     }

@@ -12,11 +12,7 @@ namespace py = pybind11;
 namespace meniscus::python {
 
 client::PublisherOptions publisher_options(const text_options::Options& options, const py::object& on_reconnect) {
-    auto reader = reader_of(options);
-    client::PublisherOptions request = text_options::read_publisher(reader);
-    reader.finish();
-    request.on_reconnect = reconnect_handler(on_reconnect);
-    return request;
+    return request_of(options, on_reconnect, text_options::read_publisher);
 }
 
 std::uint64_t SurfacePublisher::push_mesh(const MeshHandle& mesh, const py::object& index, double time) {

@@ -51,13 +51,12 @@ client::ParticleBuffer copy_of(const GivenFrame& given, client::Stream& stream) 
 }  // namespace
 
 client::StreamOptions stream_options(const text_options::Options& options, const py::object& on_reconnect) {
-    auto reader = reader_of(options);
-    client::StreamOptions request = text_options::read_stream(reader);
-    reader.read("spray", request.spray);
-    request.attributes = text_options::read_attribute_wishes(reader);
-    reader.finish();
-    request.on_reconnect = reconnect_handler(on_reconnect);
-    return request;
+    return request_of(options, on_reconnect, [](text_options::OptionReader& reader) {
+        client::StreamOptions request = text_options::read_stream(reader);
+        reader.read("spray", request.spray);
+        request.attributes = text_options::read_attribute_wishes(reader);
+        return request;
+    });
 }
 
 std::uint64_t PushedStream::push(const py::object& positions, const py::object& levels, const py::sequence& arrays,
