@@ -107,7 +107,7 @@ Stream::Impl::Impl(std::shared_ptr<Connection> connection, const std::string& se
         opening_ = stream_opening(
             session_id, options_,
             options_.receive_meshes ? codec_order(*connection_, options_.codec, options_.stop) : WireCodecs());
-    call_ = open_call();
+    call_ = open_call(false);
 }
 
 std::shared_ptr<Stream::Impl> Stream::Impl::open(std::shared_ptr<Connection> connection, const std::string& session_id,
@@ -174,8 +174,8 @@ void Stream::Impl::cancel() {
     over_.notify_all();
 }
 
-std::shared_ptr<UploadCall> Stream::Impl::open_call() const {
-    return std::make_shared<UploadCall>(connection_, session_id_, opening_);
+std::shared_ptr<UploadCall> Stream::Impl::open_call(bool again) const {
+    return std::make_shared<UploadCall>(connection_, session_id_, opening_, again);
 }
 
 bool Stream::Impl::wait_for_room(std::uint64_t index, WhenFull when_full) {

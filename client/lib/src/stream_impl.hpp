@@ -85,7 +85,8 @@ private:
     template <class Work>
     std::thread run(const std::shared_ptr<Impl>& self, Work work);
 
-    std::shared_ptr<UploadCall> open_call() const;
+    /// again: whether it goes on where one before has broken off.
+    std::shared_ptr<UploadCall> open_call(bool again) const;
     bool resumes() const { return options_.reconnect.count() > 0; }
 
     // The sending thread.

@@ -58,7 +58,7 @@ std::shared_ptr<UploadCall> Stream::Impl::reopen(grpc::Status status) {
         std::shared_ptr<UploadCall> call;
         if (created.ok()) {
             created_by_ = ended_by(*creating);
-            call = open_call();
+            call = open_call(true);
             connecting_ = true;
         }
         lock.lock();

@@ -72,12 +72,12 @@ grpc::ByteBuffer chunk_message(const std::shared_ptr<const void>& memory, std::s
 }  // namespace
 
 UploadCall::UploadCall(std::shared_ptr<Connection> connection, const std::string& session_id,
-                       const UploadOpening& opening)
+                       const UploadOpening& opening, bool again)
     : connection_(std::move(connection)), sends_parts_(opening.sends_parts) {
     connection_->add_metadata(context_, session_id);
     call_ = start(*connection_, opening.method, context_);
     // A refusal arrives as the call's status.
-    send(opening.request, {});
+    send(again ? opening.request_again : opening.request, {});
 }
 
 bool UploadCall::send(const PushedFrame& frame) {

@@ -17,13 +17,16 @@ namespace meniscus::client {
 struct UploadOpening {
     const char* method = nullptr;  ///< path of Stream or Publish
     std::string request;           ///< the first, serialized
+    std::string request_again;     ///< the same of a call that goes on where one before has broken off
     bool sends_parts = false;
 };
 
 /// One thread may send while another reads.
 class UploadCall {
 public:
-    UploadCall(std::shared_ptr<Connection> connection, const std::string& session_id, const UploadOpening& opening);
+    /// again: whether it goes on where one before has broken off.
+    UploadCall(std::shared_ptr<Connection> connection, const std::string& session_id, const UploadOpening& opening,
+               bool again);
 
     /// False once the call has ended: read() and then finish() say why. Copies no particles: gRPC refers to the
     /// frame's bytes, and keeps them, until they are on the wire.

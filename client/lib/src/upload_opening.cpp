@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <random>
 #include <span>
+#include <utility>
 
 #include "conversion/attribute_conversion.hpp"
 #include "meniscus/v1/surface_service.pb.h"
@@ -42,6 +43,16 @@ void fill(Open& open, const std::string& session_id, const StreamOptions& option
     open.set_part(options.part);
 }
 
+template <class Request>
+UploadOpening opening_by(const char* method, Request& request, const StreamOptions& options) {
+    std::string first = request.SerializeAsString();
+    request.mutable_open()->set_resumes(true);
+    return {.method = method,
+            .request = std::move(first),
+            .request_again = request.SerializeAsString(),
+            .sends_parts = options.parts > 1};
+}
+
 }  // namespace
 
 UploadOpening stream_opening(const std::string& session_id, const StreamOptions& options, const WireCodecs& codecs) {
@@ -53,17 +64,13 @@ UploadOpening stream_opening(const std::string& session_id, const StreamOptions&
     open.set_with_spray(options.spray);
     *open.mutable_attributes() = conversion::to_wire(std::span(options.attributes));
     *open.mutable_codecs() = codecs;
-    return {.method = "/meniscus.v1.SurfaceService/Stream",
-            .request = request.SerializeAsString(),
-            .sends_parts = options.parts > 1};
+    return opening_by("/meniscus.v1.SurfaceService/Stream", request, options);
 }
 
 UploadOpening publish_opening(const std::string& session_id, const StreamOptions& options) {
     v1::PublishRequest request;
     fill(*request.mutable_open(), session_id, options);
-    return {.method = "/meniscus.v1.SurfaceService/Publish",
-            .request = request.SerializeAsString(),
-            .sends_parts = options.parts > 1};
+    return opening_by("/meniscus.v1.SurfaceService/Publish", request, options);
 }
 
 }  // namespace meniscus::client

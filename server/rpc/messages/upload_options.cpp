@@ -67,6 +67,7 @@ UploadOptions upload_options(const v1::StreamOpen& message) {
             .nth = message.nth(),
             .run_id = message.run_id(),
             .parts = parts_of(message),
+            .resumes = message.resumes(),
             .reconnect = reconnect_of(message)};
 }
 
@@ -76,6 +77,7 @@ UploadOptions upload_options(const v1::PublishOpen& message) {
             .nth = message.nth(),
             .run_id = message.run_id(),
             .parts = parts_of(message),
+            .resumes = message.resumes(),
             .reconnect = reconnect_of(message)};
 }
 

@@ -61,6 +61,7 @@ struct UploadOptions {
     std::uint32_t nth = 1;                   ///< at least 1; for UploadPolicy::every_nth
     std::uint64_t run_id = 0;                ///< 0: a run of its own
     std::uint32_t parts = 1;                 ///< streams, each of which sends a part of every frame
+    bool resumes = false;                    ///< whether it goes on where a stream of its run and part has broken off
     std::chrono::milliseconds reconnect{0};  ///< for how long its simulator tries to come back
 };
 
@@ -70,7 +71,8 @@ struct Run {
     std::optional<std::uint64_t> last_shown = {};     ///< index of a frame; used by the reconstructing thread alone
     std::optional<std::uint64_t> last_finished = {};  ///< index of a frame; used by the encoding thread alone
     std::atomic<bool> has_begun{false};               ///< its first frame, over all parts
-    /// Whose streams have ended well, and do not come again; with the lock of JointUploads.
+    /// Whose streams have ended well, and come again only where they have not heard of that; with the lock of
+    /// JointUploads.
     std::set<std::uint32_t> finished_parts = {};
 };
 

@@ -65,7 +65,10 @@ std::shared_ptr<JointUpload> JointUpload::open(const std::shared_ptr<Session>& s
     // Before the session, which may end it at once, has it.
     made->take_part(options, part, stream);
     session->open_upload(made->upload_);
-    for (const std::uint32_t finished : made->upload_->run->finished_parts) made->go_on_without(finished);
+    std::set<std::uint32_t>& finished = made->upload_->run->finished_parts;
+    // Once all have ended well, a stream that resumes none is the first of others of all parts.
+    if (finished.size() == options.parts && !options.resumes) finished.clear();
+    for (const std::uint32_t other : finished) made->go_on_without(other);
     all.newest = made;
     return made;
 }
@@ -377,10 +380,7 @@ void JointUpload::done(std::uint32_t part, UploadEnd end) {
     if (has_finished && parts_.size() > 1) {
         JointUploads& joints = session_->joint_uploads();
         const std::lock_guard lock(joints.mutex);
-        std::set<std::uint32_t>& finished = upload_->run->finished_parts;
-        finished.insert(part);
-        // None misses an answer: whatever comes is another stream of all parts.
-        if (finished.size() == parts_.size()) finished.clear();
+        upload_->run->finished_parts.insert(part);
         // The others may have resumed the run already, for the answers that they miss.
         if (const auto newest = joints.newest.lock(); newest && newest->upload_->run == upload_->run)
             newest->go_on_without(part);
