@@ -117,9 +117,7 @@ bool Recording::is_whole(const RecordedFrame& frame) const {
 }
 
 RecordedParticles Recording::particles(const RecordedFrame& frame) const {
-    if (frame.finished_bricks)
-        file_.fail("frame " + std::to_string(frame.index) +
-                   " came as finished bricks: it has a mesh, which convert writes, and no particles");
+    if (frame.finished_bricks) file_.fail(came_as_bricks(frame.index));
     if (!files::is_whole(file_, frame.particles))
         file_.fail("particles of frame " + std::to_string(frame.index) +
                    ": they do not have their checksum: the file is damaged");

@@ -5,6 +5,7 @@
 #include "files/recording_entries.hpp"
 #include "files/recording_format.hpp"
 #include "formats/recordings/recorded_frame_reader.hpp"
+#include "formats/recordings/recorded_particles.hpp"
 #include "formats/recordings/recorded_session.hpp"
 #include "meniscus/error.hpp"
 
@@ -45,9 +46,7 @@ std::optional<RecordingStream::Frame> RecordingStream::next(RecordedParticles& p
             continue;
         }
         const Frame frame = announced(entry.particles());
-        if (entry.particles().finished_bricks())
-            fail("frame " + std::to_string(frame.index) +
-                 " came as finished bricks: it has a mesh, which convert writes, and no particles");
+        if (entry.particles().finished_bricks()) fail(came_as_bricks(frame.index));
         if (entry.bytes() > limits_.most_bytes)
             fail("frame " + std::to_string(frame.index) + " is announced with " + std::to_string(entry.bytes()) +
                  " bytes; at most " + std::to_string(limits_.most_bytes) +
