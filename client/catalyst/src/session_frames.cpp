@@ -78,7 +78,8 @@ void SessionFrames::say_awaited() {
     const std::string why = opening_->message();
     if (why.empty() || why == awaited_since_) return;
     awaited_since_ = why;
-    notices_.say(why + "; frames are left out until the server is there");
+    const bool refused = opening_->state() == SessionOpening::State::refused;
+    notices_.say(why + (refused ? "; no frames are sent" : "; frames are left out until the server is there"));
 }
 
 void SessionFrames::take_answers() {
