@@ -13,7 +13,11 @@ namespace meniscus::test {
 
 /// The implementation under test, loaded once.
 inline const catalyst_impl& implementation() {
-    static const CatalystStandIn loaded;
+    static const CatalystStandIn loaded = [] {
+        ::setenv("CATALYST_IMPLEMENTATION_NAME", "meniscus", 1);
+        ::setenv("CATALYST_IMPLEMENTATION_PATHS", MENISCUS_CATALYST_ALONE, 1);
+        return CatalystStandIn();
+    }();
     return *loaded;
 }
 
