@@ -20,12 +20,12 @@ namespace {
 
 constexpr std::string_view prefix = "MENISCUS_";
 
-/// The file's own name; variables of the library, of the client, of the tests and benchmarks; and those that Kubernetes
-/// sets for a service named meniscus.
+/// The file's own name; variables of the libraries, of the client, of the tests and benchmarks; and those that
+/// Kubernetes sets for a service named meniscus.
 bool is_no_setting(std::string_view variable) {
-    constexpr std::array<std::string_view, 7> others{"MENISCUS_CONFIG",    "MENISCUS_INSTRUCTIONS", "MENISCUS_TOKEN",
-                                                     "MENISCUS_SERVER_CA", "MENISCUS_SERVER_NAME",  "MENISCUS_DATA",
-                                                     "MENISCUS_COMMIT"};
+    constexpr std::array<std::string_view, 9> others{
+        "MENISCUS_CONFIG",    "MENISCUS_INSTRUCTIONS", "MENISCUS_PROGRAM", "MENISCUS_CATALYST", "MENISCUS_TOKEN",
+        "MENISCUS_SERVER_CA", "MENISCUS_SERVER_NAME",  "MENISCUS_DATA",    "MENISCUS_COMMIT"};
     return std::find(others.begin(), others.end(), variable) != others.end() ||
            variable.starts_with("MENISCUS_SERVICE_") || variable.starts_with("MENISCUS_PORT");
 }

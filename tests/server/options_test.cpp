@@ -129,8 +129,10 @@ TEST(Options, OfEachKindComeFromEachSource) {
     EXPECT_EQ(options.listen, from_file.listen) << "an empty variable is none";
 }
 
-TEST(Options, AreNotTheVariablesOfTheLibraryAndTheClient) {
+TEST(Options, AreNotTheVariablesOfTheLibrariesAndTheClient) {
     const Variable instructions("MENISCUS_INSTRUCTIONS", "portable");
+    const Variable program("MENISCUS_PROGRAM", "meniscus");
+    const Variable catalyst("MENISCUS_CATALYST", "server=127.0.0.1:50051");
     const Variable token("MENISCUS_TOKEN", "secret");
     parse({});
 }

@@ -1,0 +1,45 @@
+// A simulation's run, from catalyst_initialize() to catalyst_finalize().
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "mesh_particles.hpp"
+#include "node.hpp"
+#include "notices.hpp"
+#include "ranks.hpp"
+#include "run_options.hpp"
+#include "session_frames.hpp"
+
+namespace meniscus::catalyst {
+
+class Run {
+public:
+    /// params: of catalyst_initialize(). environment: MENISCUS_CATALYST, may be null. Throws InvalidInput, NotBuilt and
+    /// Failure; on all ranks if on one.
+    Run(const Node& params, const char* environment);
+
+    /// params: of catalyst_execute(). Throws as Run() does; what one rank lacks, all leave out.
+    void execute(const Node& params);
+    void finish() { frames_->finish(); }
+
+    const SessionFrames& frames() const noexcept { return *frames_; }
+
+private:
+    /// The data of the channel that has the particles; a node that is not there if this rank has none.
+    Node mesh(const Node& params);
+    const meniscus_particles& particles(const Node& params);
+    void read_state(const Node& state);
+    void require_order() const;
+
+    Notices notices_;
+    Ranks ranks_;
+    RunOptions options_;
+    MeshParticles particles_;
+    std::optional<SessionFrames> frames_;
+    std::uint64_t index_ = 0;       ///< of the frame
+    std::uint64_t next_index_ = 0;  ///< the least that the next one may have
+    double time_ = 0.0;
+};
+
+}  // namespace meniscus::catalyst

@@ -1,0 +1,154 @@
+#include "session_frames.hpp"
+
+#include <array>
+#include <cstdio>
+#include <random>
+#include <utility>
+
+#include "meniscus/error.hpp"
+
+namespace meniscus::catalyst {
+namespace {
+
+/// Seconds without an answer, at the end: of a server that has stopped.
+constexpr double last_answers = 30.0;
+
+/// What all ranks of a run call it by.
+struct RunName {
+    std::array<std::uint32_t, 4> session;
+    std::uint64_t run;
+};
+
+RunName drawn_name() {
+    std::random_device random;
+    RunName name{};
+    for (std::uint32_t& word : name.session) word = random();
+    // The number of a first run, which is not 0, and below it room for those that follow.
+    name.run = (std::uint64_t{random()} << 16) + 1;
+    return name;
+}
+
+/// A UUID of version 4: random but for six bits.
+std::string uuid_of(std::array<std::uint32_t, 4> words) {
+    words[1] = (words[1] & 0xFFFF0FFFU) | 0x4000U;
+    words[2] = (words[2] & 0x3FFFFFFFU) | 0x80000000U;
+    std::array<char, 37> text{};
+    std::snprintf(text.data(), text.size(), "%08x-%04x-%04x-%04x-%04x%08x", words[0], words[1] >> 16U,
+                  words[1] & 0xFFFFU, words[2] >> 16U, words[2] & 0xFFFFU, words[3]);
+    return text.data();
+}
+
+}  // namespace
+
+SessionFrames::SessionFrames(const RunOptions& options, const Ranks& ranks, Notices& notices)
+    : options_(options), ranks_(ranks), notices_(notices) {
+    RunName name = drawn_name();
+    ranks.broadcast(&name, sizeof name);
+    const auto given = options.session.find("session");
+    id_ = given != options.session.end() ? given->second : uuid_of(name.session);
+    run_ = name.run;
+    open(false);
+    const bool refused = opening_->first_attempt() == SessionOpening::State::refused;
+    if (ranks.least({refused ? 0 : 1, 0})[0] == 0)
+        throw refused ? Failure(opening_->result(), opening_->message())
+                      : Failure(MENISCUS_FAILED_PRECONDITION, "another rank's session was refused, which says why");
+    if (look() == State::awaited) say_awaited();
+}
+
+void SessionFrames::open(bool again) {
+    text_options::Options session = options_.session;
+    session.insert_or_assign("session", id_);
+    if (ranks_.size() > 1) {
+        session.insert_or_assign("parts", std::to_string(ranks_.size()));
+        session.insert_or_assign("part", std::to_string(ranks_.rank()));
+        session.insert_or_assign("run", std::to_string(run_));
+    }
+    opening_.emplace(options_.server, options_.connection, std::move(session), again);
+}
+
+void SessionFrames::lose(const std::string& why) {
+    // Ours or not, it stays for those that watch it: an ephemeral one ends unless its stream comes again.
+    meniscus_session_leave(session_.get());
+    session_.reset();
+    awaited_since_ = why;
+    notices_.say(why + "; frames are left out until session " + id_ + " is open again");
+}
+
+void SessionFrames::say_awaited() {
+    const std::string why = opening_->message();
+    if (why.empty() || why == awaited_since_) return;
+    awaited_since_ = why;
+    const bool refused = opening_->state() == SessionOpening::State::refused;
+    notices_.say(why + (refused ? "; no frames are sent" : "; frames are left out until the server is there"));
+}
+
+void SessionFrames::take_answers() {
+    if (session_ == nullptr) return;
+    meniscus_frame* frame = nullptr;
+    meniscus_result result = MENISCUS_OK;
+    while ((result = meniscus_session_next(session_.get(), 0.0, &frame)) == MENISCUS_OK) meniscus_frame_destroy(frame);
+    if (result < 0) lose(meniscus_error_message());
+    if (result == MENISCUS_ENDED) lose("the session has been ended");
+}
+
+SessionFrames::State SessionFrames::look() {
+    take_answers();
+    if (opening_ && opening_->state() == SessionOpening::State::open) {
+        session_ = opening_->take();
+        opening_.reset();
+        awaited_since_.clear();
+        if (ranks_.rank() == 0)
+            notices_.say(
+                "frames go to session " + id_ + " on " + options_.server +
+                (left_out_meanwhile_ == 0 ? "" : "; " + std::to_string(left_out_meanwhile_) + " were left out"));
+        left_out_meanwhile_ = 0;
+    }
+    return session_ != nullptr ? State::open : opening_ ? State::awaited : State::lost;
+}
+
+void SessionFrames::push(const meniscus_particles* particles, std::uint64_t index, double simulation_time) {
+    const State here = look();
+    const auto [all_have_frames, least] = ranks_.least({particles != nullptr ? 1 : 0, static_cast<int>(here)});
+    const auto state = static_cast<State>(least);
+    if (state == State::lost) {
+        if (session_ != nullptr) lose("another rank has lost the session");
+        ++run_;
+        open(true);
+    } else if (here == State::awaited) {
+        say_awaited();
+    }
+    if (state != State::open || all_have_frames == 0) {
+        ++left_out_;
+        if (state != State::open) ++left_out_meanwhile_;
+        return;
+    }
+    const meniscus_result result = meniscus_session_push(session_.get(), particles, index, simulation_time);
+    if (result == MENISCUS_OK) {
+        ++sent_;
+        return;
+    }
+    ++left_out_;
+    if (!is_away(result)) throw Failure(result, meniscus_error_message());
+    ++left_out_meanwhile_;
+    lose(meniscus_error_message());
+}
+
+void SessionFrames::finish() {
+    const auto state = static_cast<State>(ranks_.least({1, static_cast<int>(look())})[1]);
+    if (state == State::open) {
+        meniscus_frame* frame = nullptr;
+        meniscus_result result = meniscus_session_finish(session_.get());
+        while (result == MENISCUS_OK &&
+               (result = meniscus_session_next(session_.get(), last_answers, &frame)) == MENISCUS_OK)
+            meniscus_frame_destroy(frame);
+        if (result < 0) notices_.say(meniscus_error_message());
+        if (result == MENISCUS_NOTHING_YET) notices_.say("the server does not answer the last frames; they are left");
+    }
+    ranks_.wait_for_all();  // one of them has made the session, and ends it
+    session_.reset();
+    opening_.reset();
+    if (left_out_ != 0 && ranks_.rank() == 0)
+        notices_.say(std::to_string(left_out_) + " frames were left out, " + std::to_string(sent_) + " were sent");
+}
+
+}  // namespace meniscus::catalyst
