@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "formats/bytes/byte_cursor.hpp"
 #include "meniscus/mesh_hash.hpp"
 #include "own_surfaces.hpp"
 #include "push_fixture.hpp"
@@ -63,19 +62,20 @@ TEST_F(PushBricks, GivesTheMeshesAttributesAndFiguresOfADirectPublication) {
     }
 }
 
-TEST_F(PushBricks, TakesFilesBehindOneAnother) {
-    for (const char* const name : {"a", "b"}) {
-        const Block block(name[0] == 'a' ? 3 : 5);
-        const auto file = (directory_ / name).string();
-        formats::write_file(
-            file, c::bricks_beginning() + bytes_of(surface_of(settings_, block.frame(), name[0] == 'a' ? 1 : 2)));
+TEST_F(PushBricks, NumbersTheFilesOfASequence) {
+    std::string files;
+    for (const unsigned side : {3U, 5U}) {
+        const Block block(side);
+        files += c::bricks_beginning() + bytes_of(surface_of(settings_, block.frame(), 0));
     }
-    const ProcessResult result = push(
-        formats::read_file((directory_ / "a").string()) + formats::read_file((directory_ / "b").string()), flags());
+    const ProcessResult result = push(files, flags());
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(lines_of(result).size(), 4U) << result.out;
+    const auto lines = lines_of(result);
+    ASSERT_EQ(lines.size(), 4U) << result.out;
+    EXPECT_EQ(lines[1].at("frame"), 0);
+    EXPECT_EQ(lines[2].at("frame"), 1);
     const Block last(5);
-    EXPECT_EQ(mesh_sha256(shown(id_).mesh()), mesh_sha256(surface_of(settings_, last.frame(), 2).mesh()));
+    EXPECT_EQ(mesh_sha256(shown(id_).mesh()), mesh_sha256(surface_of(settings_, last.frame(), 1).mesh()));
 }
 
 TEST_F(PushBricks, OfOneFrameComeFromSeveralProcesses) {
