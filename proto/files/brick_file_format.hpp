@@ -3,7 +3,8 @@
 // A file is `brick_file_magic`, then protobuf messages, each after its length in bytes as a protobuf varint (protobuf's
 // usual "delimited" framing): a meniscus.v1.BrickFileBegin; then meniscus.v1.StreamResponse messages: one with
 // mesh_begin, one or more with mesh_brick for each brick (a brick of more than 1 MiB in parts), any with spray_points,
-// one with frame_statistics. Several frames may follow each other; readers take the first.
+// one with frame_statistics. Several frames may follow each other; readers of files take the first, `meniscus push` all
+// of them, and what follows behind a further magic.
 //
 // The version rises with a change that an earlier reader would misunderstand. Readers skip fields of messages that they
 // do not know, so new fields do not raise it. Version 1 had neither magic nor BrickFileBegin, and its bricks named no

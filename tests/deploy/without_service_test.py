@@ -61,7 +61,16 @@ class WithoutTheService(unittest.TestCase):
         names = {os.path.splitext(os.path.basename(file))[0] for file in standing_in}
         # Of .glb nothing is there without nlohmann-json, whatever Draco would make of it.
         libraries = {"bricks", "draco", "glb", "hdf5", "json", "openssl", "png", "pugixml", "zlib"}
-        pushing = {"frame_bytes", "json_line", "push_answer", "push_options", "push_process", "pushing"}
+        pushing = {
+            "brick_bytes",
+            "frame_bytes",
+            "json_line",
+            "push_answer",
+            "push_options",
+            "push_process",
+            "pushed_upload",
+        }
+        pushing |= {"pushing", "statistics_message"}
         self.assertEqual(names, libraries | pushing | {"publishing", "watching"})
         for command in standing_in.values():
             run(*shlex.split(command), "-fsyntax-only")

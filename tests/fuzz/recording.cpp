@@ -4,10 +4,16 @@
 #include <unistd.h>
 
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "files/brick_file_format.hpp"
 #include "files/recording_format.hpp"
 #include "files/recording_scan.hpp"
+#include "formats/recordings/brick_stream.hpp"
 #include "formats/recordings/recording_stream.hpp"
+#include "meniscus/v1/brick_file.pb.h"
+#include "receiving/frame_messages.hpp"
 #include "recording/recording_entries.hpp"
 #include "support.hpp"
 
@@ -31,6 +37,13 @@ public:
 private:
     int descriptor_;
 };
+
+void append_delimited(const google::protobuf::MessageLite& message, std::string& out) {
+    const std::string text = message.SerializeAsString();
+    for (std::size_t size = text.size(); size != 0; size >>= 7U)
+        out += static_cast<char>((size & 0x7fU) | (size >= 0x80 ? 0x80U : 0U));
+    out += text;
+}
 
 server::InputFrame frame(std::uint64_t index, bool quantized, bool levels) {
     constexpr std::size_t particles = 2;
@@ -63,7 +76,9 @@ void recording(Bytes bytes) {
 void piped_recording(Bytes bytes) {
     const MemoryFile file(bytes);
     may_refuse([&] {
-        formats::RecordingStream stream(file.path());
+        formats::InputPipe pipe(file.path());
+        formats::PipedMessages messages(pipe);
+        formats::RecordingStream stream(messages);
         formats::RecordedParticles particles;
         std::optional<std::uint64_t> last;
         while (const auto frame = stream.next(particles)) {
@@ -78,6 +93,24 @@ void piped_recording(Bytes bytes) {
     });
 }
 
+void piped_bricks(Bytes bytes) {
+    const MemoryFile file(bytes);
+    may_refuse([&] {
+        formats::InputPipe pipe(file.path());
+        formats::PipedMessages messages(pipe);
+        formats::BrickStream stream(messages);
+        std::optional<std::uint64_t> last;
+        while (const auto frame = stream.next()) {
+            require(!last || frame->index > *last, "indices rise");
+            last = frame->index;
+            std::size_t brick_bytes = 0;
+            for (const auto& brick : frame->bricks) brick_bytes += brick->data.size();
+            require(brick_bytes <= bytes.size(), "bricks have bytes");
+            may_refuse([&] { (void)frame->mesh(); });
+        }
+    });
+}
+
 /// Entries in the older form without checksums, so that mutations of them are read instead of refused at once.
 std::string without_checksums(const std::string& bytes) {
     const MemoryFile memory(bytes);
@@ -87,10 +120,8 @@ std::string without_checksums(const std::string& bytes) {
     const auto append = [&out](v1::RecordingEntry entry, const std::string& messages) {
         entry.clear_checksum();
         entry.clear_messages_checksum();
-        const std::string text = entry.SerializeAsString();
-        for (std::size_t size = text.size(); size != 0; size >>= 7U)
-            out += static_cast<char>((size & 0x7fU) | (size >= 0x80 ? 0x80U : 0U));
-        out += text + messages;
+        append_delimited(entry, out);
+        out += messages;
     };
     v1::RecordingEntry begin;
     *begin.mutable_begin() = scan.begin();
@@ -110,6 +141,33 @@ Seeds recording_seeds() {
         all += particles.entry + particles.messages;
     }
     return {begin, all, without_checksums(begin), without_checksums(all)};
+}
+
+Seeds piped_bricks_seeds() {
+    Seeds seeds;
+    for (const bool attributes : {false, true})
+        for (const Codec codec : codecs) {
+            const Mesh mesh = sample_mesh(attributes);
+            CodingOptions options{.codec = codec};
+            const std::vector<AttributeWish> all{{.name = {}, .bits = attributes ? 0 : 8}};
+            options.attributes = coded_attributes(mesh, attribute_ranges(mesh), all);
+            Statistics statistics;
+            statistics.triangles = mesh.triangles.size();
+            std::string beginning(files::brick_file_magic);
+            v1::BrickFileBegin begin;
+            begin.set_version(files::brick_file_version);
+            append_delimited(begin, beginning);
+            std::string file = beginning;
+            for (const std::uint64_t i : {0, 1})
+                client::give_messages(client::encode_frame(mesh, statistics, i, 0.5, options), nullptr,
+                                      [&file](const auto& message) { append_delimited(message, file); });
+            seeds.push_back(file);
+            std::string next = beginning;
+            client::give_messages(client::encode_frame(mesh, statistics, 7, 1.0, options), nullptr,
+                                  [&next](const auto& message) { append_delimited(message, next); });
+            seeds.push_back(file + next);
+        }
+    return seeds;
 }
 
 }  // namespace meniscus::fuzz

@@ -36,6 +36,7 @@ const std::vector<Target>& targets() {
         {"mesh_npz", mesh_npz, mesh_npz_seeds},
         {"brick_file", brick_file, brick_file_seeds},
         {"recording", recording, recording_seeds},
+        {"piped_bricks", piped_bricks, piped_bricks_seeds},
         {"piped_recording", piped_recording, recording_seeds},
         {"publication_manifest", publication_manifest, publication_manifest_seeds},
         {"publication_segment", publication_segment, publication_segment_seeds},

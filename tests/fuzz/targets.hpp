@@ -108,6 +108,9 @@ void recording(Bytes bytes);
 Seeds recording_seeds();
 /// A recording as `meniscus push` reads it, front to back.
 void piped_recording(Bytes bytes);
+/// Files of bricks, likewise.
+void piped_bricks(Bytes bytes);
+Seeds piped_bricks_seeds();
 
 /// A publication's manifest.
 void publication_manifest(Bytes bytes);

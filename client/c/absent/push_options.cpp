@@ -12,7 +12,8 @@
 namespace meniscus::c {
 namespace {
 
-/// Of meshes, which do not come back through `meniscus push`, and of what waits for them here.
+/// Of meshes, which do not come back through `meniscus push` and whose bricks are encoded here, and of what waits for
+/// them here.
 constexpr std::array<std::string_view, 6> of_meshes{"meshes",         "normal-bits", "normals-by",
                                                     "attribute-bits", "codec",       "waiting-limit"};
 /// Of several words, which are arguments of their own.
@@ -40,9 +41,10 @@ void append(const std::string& name, const std::string& value, std::vector<std::
     }
 }
 
-/// Throws for options that the command lacks.
+/// Throws for options that the command lacks. upload: options of a stream or of a publisher.
+template <class Upload>
 void require_possible(const client::ConnectionOptions& connection, const client::OpenOptions& open,
-                      const client::StreamOptions& stream) {
+                      const Upload& upload) {
     const auto refuse = [](const std::string& option) {
         throw NotBuilt("option '" + option + "' of a session through meniscus push",
                        "the service: leave the option out, or build it without -DMENISCUS_SERVICE=OFF, where gRPC is "
@@ -50,7 +52,34 @@ void require_possible(const client::ConnectionOptions& connection, const client:
     };
     if (connection.timeout != client::ConnectionOptions().timeout) refuse("timeout");
     if (!open.ephemeral) refuse("ephemeral");
-    if (stream.route_check != client::StreamOptions().route_check) refuse("route-check");
+    if (upload.route_check != Upload().route_check) refuse("route-check");
+}
+
+/// read_upload: reads the options of the upload from a reader, and returns them.
+template <class ReadUpload>
+PushArguments arguments_of(const std::string& address, const text_options::Options& connection,
+                           const text_options::Options& session, const ReadUpload& read_upload) {
+    text_options::OptionReader connecting(&connection);
+    const client::ConnectionOptions connected = text_options::read_connection(connecting);
+    text_options::OptionReader reader(&session);
+    PushArguments out;
+    out.settings = text_options::read_settings(reader);
+    const client::OpenOptions open = text_options::read_open(reader);
+    const auto upload = read_upload(reader);
+    reader.finish();
+    require_possible(connected, open, upload);
+
+    out.token = connected.token;
+    out.words = {"push", "-", "--answers=-", "--quiet", "--server=" + address};
+    for (const auto& [name, value] : connection)
+        if (name != "token" && name != "timeout") append(name, value, out.words);
+    for (const auto& [name, value] : session)
+        if (std::find(of_meshes.begin(), of_meshes.end(), name) == of_meshes.end() && name != "ephemeral" &&
+            name != "route-check")
+            append(name, value, out.words);
+    // The command's own default is another one.
+    if (session.find("reconnect") == session.end()) append("reconnect", "0", out.words);
+    return out;
 }
 
 }  // namespace
@@ -63,27 +92,22 @@ void check_connection(const text_options::Options& connection) {
 
 PushArguments push_arguments(const std::string& address, const text_options::Options& connection,
                              const text_options::Options& session) {
-    text_options::OptionReader connecting(&connection);
-    const client::ConnectionOptions connected = text_options::read_connection(connecting);
-    text_options::OptionReader reader(&session);
-    PushArguments out;
-    out.settings = text_options::read_settings(reader);
-    const client::OpenOptions open = text_options::read_open(reader);
-    const client::StreamOptions stream = text_options::read_stream(reader);
-    text_options::read_every_attribute(reader);
-    reader.finish();
-    require_possible(connected, open, stream);
+    return arguments_of(address, connection, session, [](text_options::OptionReader& reader) {
+        text_options::read_every_attribute(reader);
+        return text_options::read_stream(reader);
+    });
+}
 
-    out.token = connected.token;
-    out.words = {"push", "-", "--answers=-", "--quiet", "--server=" + address};
-    for (const auto& [name, value] : connection)
-        if (name != "token" && name != "timeout") append(name, value, out.words);
-    for (const auto& [name, value] : session)
-        if (std::find(of_meshes.begin(), of_meshes.end(), name) == of_meshes.end() && name != "ephemeral" &&
-            name != "route-check")
-            append(name, value, out.words);
-    // The command's own default is another one.
-    if (session.find("reconnect") == session.end()) append("reconnect", "0", out.words);
+PublishArguments publish_arguments(const std::string& address, const text_options::Options& connection,
+                                   const text_options::Options& session) {
+    PublishArguments out;
+    out.push = arguments_of(address, connection, session, [&out](text_options::OptionReader& reader) {
+        client::PublisherOptions publisher = text_options::read_publisher(reader);
+        out.form.coding.normal_bits = publisher.normal_bits;
+        out.form.coding.codec = publisher.codec;
+        out.form.wishes = {{{}, publisher.attribute_bits}};
+        return publisher;
+    });
     return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "brick_box.hpp"
 #include "client.hpp"
 #include "mesh.hpp"
 #include "next_frame.hpp"
@@ -55,6 +56,17 @@ meniscus_result meniscus_publisher_push(meniscus_publisher* publisher, const men
     return guarded([&] {
         const meniscus_mesh& pushed = required(mesh, "mesh");
         required(publisher, "publisher").content.push(pushed.content, pushed.statistics, index, simulation_time);
+        return MENISCUS_OK;
+    });
+}
+
+meniscus_result meniscus_publisher_push_box(meniscus_publisher* publisher, const meniscus_mesh* mesh,
+                                            const int32_t lowest[3], const int32_t highest[3], uint64_t index,
+                                            double simulation_time) {
+    return guarded([&] {
+        const meniscus_mesh& pushed = required(mesh, "mesh");
+        required(publisher, "publisher")
+            .content.push(pushed.content, pushed.statistics, index, simulation_time, brick_box(lowest, highest));
         return MENISCUS_OK;
     });
 }

@@ -201,7 +201,7 @@ void add_simulate(CLI::App& app) {
     {
         const OptionGroup group(command, place_heading);
         add_part_options(command, options->surfaces.stream, *command.get_option("--server"),
-                         *command.get_option("--session"));
+                         command.get_option("--session"));
     }
     options->verbosity.add_to(command);
     add_examples(command,

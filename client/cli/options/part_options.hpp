@@ -10,7 +10,7 @@ class Option;
 
 namespace meniscus::cli {
 
-/// server, session: the options that they need.
-void add_part_options(CLI::App& command, client::StreamOptions& stream, CLI::Option& server, CLI::Option& session);
+/// server, session: the options that they need. session: null where part 0 may open the session of the others.
+void add_part_options(CLI::App& command, client::StreamOptions& stream, CLI::Option& server, CLI::Option* session);
 
 }  // namespace meniscus::cli

@@ -22,6 +22,7 @@ public:
 
     const std::string& id() const { return session_.id(); }
     client::Stream stream(const client::StreamOptions& options) { return session_.stream(options); }
+    client::Publisher publish(const client::PublisherOptions& options) { return session_.publish(options); }
     /// Says what went wrong, which the destructor cannot.
     void end();
 

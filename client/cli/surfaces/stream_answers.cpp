@@ -1,14 +1,6 @@
 #include "cli/surfaces/stream_answers.hpp"
 
-#include <utility>
-
 namespace meniscus::cli {
-
-StreamAnswers::StreamAnswers(client::Stream& stream, Handler handle, std::function<void()> after_failure)
-    : stream_(stream),
-      handle_(std::move(handle)),
-      after_failure_(std::move(after_failure)),
-      thread_([this] { take(); }) {}
 
 StreamAnswers::~StreamAnswers() {
     if (!thread_.joinable()) return;
@@ -22,7 +14,7 @@ StreamAnswers::~StreamAnswers() {
 void StreamAnswers::finish() {
     std::exception_ptr error;
     try {
-        stream_.finish();
+        end_upload_();
     } catch (...) {
         error = std::current_exception();
     }
@@ -38,7 +30,7 @@ void StreamAnswers::take() {
         if (after_failure_) after_failure_();
     };
     try {
-        while (const auto frame = stream_.next()) {
+        while (const auto frame = next_()) {
             if (error_) continue;
             try {
                 handle_(*frame);

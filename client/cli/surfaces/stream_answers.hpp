@@ -1,21 +1,30 @@
-// The answers to a stream's frames, while another thread goes on pushing.
+// The answers to the frames of a stream or a publisher, while another thread goes on pushing.
 #pragma once
 
 #include <exception>
 #include <functional>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "meniscus/client/client.hpp"
 
 namespace meniscus::cli {
 
-/// Takes a stream's answers, on a thread of its own, until the stream ends.
+/// Takes the answers, on a thread of its own, until the upload ends.
 class StreamAnswers {
 public:
     using Handler = std::function<void(const client::ReceivedFrame&)>;
-    /// handle: called by that thread alone. after_failure: called by it, once, when the stream or `handle` has failed;
-    /// further answers are only taken out of the way, so that a push() does not wait for ever.
-    StreamAnswers(client::Stream& stream, Handler handle, std::function<void()> after_failure = {});
+    /// upload: a client::Stream or client::Publisher, which is borrowed. handle: called by that thread alone.
+    /// after_failure: called by it, once, when the upload or `handle` has failed; further answers are only taken out of
+    /// the way, so that a push() does not wait for ever.
+    template <class Upload>
+    StreamAnswers(Upload& upload, Handler handle, std::function<void()> after_failure = {})
+        : next_([&upload] { return upload.next(); }),
+          end_upload_([&upload] { upload.finish(); }),
+          handle_(std::move(handle)),
+          after_failure_(std::move(after_failure)),
+          thread_([this] { take(); }) {}
     ~StreamAnswers();
     StreamAnswers(const StreamAnswers&) = delete;
     StreamAnswers& operator=(const StreamAnswers&) = delete;
@@ -26,7 +35,8 @@ public:
 private:
     void take();
 
-    client::Stream& stream_;
+    std::function<std::optional<client::ReceivedFrame>()> next_;
+    std::function<void()> end_upload_;
     Handler handle_;
     std::function<void()> after_failure_;
     std::exception_ptr error_;  ///< of the thread; read once that has ended

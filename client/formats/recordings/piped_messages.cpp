@@ -1,9 +1,25 @@
 #include "formats/recordings/piped_messages.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <span>
 #include <utility>
 
 namespace meniscus::formats {
+
+bool PipedMessages::follows(std::string_view magic) {
+    while (true) {
+        const std::string_view bytes = ahead();
+        if (!bytes.starts_with(magic.substr(0, bytes.size()))) return false;
+        if (bytes.size() >= magic.size()) return true;
+        std::memmove(buffer_.data(), bytes.data(), bytes.size());
+        end_ = bytes.size();
+        first_ = 0;
+        const std::size_t more = in_.read(std::span(buffer_).subspan(end_));
+        if (more == 0) return false;
+        end_ += more;
+    }
+}
 
 bool PipedMessages::begins_with(std::string_view magic) {
     for (std::size_t i = 0; i < magic.size(); ++i) {

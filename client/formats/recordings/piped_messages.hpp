@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "files/recording_checksums.hpp"
 #include "formats/recordings/input_pipe.hpp"
@@ -19,6 +20,9 @@ public:
     /// Borrows the pipe.
     explicit PipedMessages(InputPipe& in) : in_(in) {}
 
+    /// Whether these bytes are next; none of them is read. Waits for no more than the first that differs. magic: no
+    /// longer than the buffer.
+    bool follows(std::string_view magic);
     /// Reads these bytes. False if there are others.
     bool begins_with(std::string_view magic);
 
@@ -28,6 +32,9 @@ public:
     void begin_frame(std::uint64_t bytes, std::string where, bool with_checksum);
     /// Whether all bytes of the frame have been read.
     bool at_end() const noexcept { return frame_left_ == 0; }
+    /// The next messages are those of a frame of which nobody has told the bytes. where: of the frame, for errors;
+    /// empty: it is over.
+    void name_place(std::string where) { where_ = std::move(where); }
     /// Reads the rest of the frame, and forgets it.
     void skip_frame();
     /// The frame is over; the checksum of its bytes, if it was asked for.
@@ -39,6 +46,8 @@ public:
 
     /// Throws InvalidInput: "NAME: message".
     [[noreturn]] void fail(const std::string& message) const { in_.fail(message); }
+    /// Throws InvalidInput, which says that the pipe has ended too early.
+    [[noreturn]] void fail_cut() const;
 
 private:
     /// Bytes that were read from the pipe and not taken; none at its end.
@@ -46,7 +55,6 @@ private:
     void take(std::size_t bytes);
     /// Appends `bytes` of the pipe.
     void append(std::uint64_t bytes, std::string& out);
-    [[noreturn]] void fail_cut() const;
 
     InputPipe& in_;
     std::array<char, std::size_t{64} << 10> buffer_{};

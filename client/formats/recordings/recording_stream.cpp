@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "files/brick_file_format.hpp"
 #include "files/recording_entries.hpp"
 #include "files/recording_format.hpp"
 #include "formats/recordings/recorded_frame_reader.hpp"
@@ -11,26 +12,30 @@
 
 namespace meniscus::formats {
 
-RecordingStream::RecordingStream(const std::filesystem::path& path, const ReadLimits& limits)
-    : in_(path), messages_(in_), limits_(limits) {
+RecordingStream::RecordingStream(PipedMessages& messages, const ReadLimits& limits)
+    : messages_(messages), limits_(limits) {
     if (!messages_.begins_with(files::recording_magic))
-        in_.fail("not a recording: its first line is not 'Meniscus recording' (byte " +
-                 std::to_string(messages_.position()) + " is another, or its end)");
+        messages_.fail(
+            "neither a recording nor bricks: its first line is neither 'Meniscus recording' nor 'Meniscus "
+            "bricks' (byte " +
+            std::to_string(messages_.position()) + " is another, or its end)");
     const auto bytes = messages_.next(files::max_recording_entry_bytes);
-    if (!bytes) in_.fail("it ends at byte " + std::to_string(messages_.position()) + ", before its first entry");
+    if (!bytes) messages_.fail("it ends at byte " + std::to_string(messages_.position()) + ", before its first entry");
     try {
         const files::RecordingBeginning beginning = files::read_beginning(*bytes);
         has_checksums_ = beginning.has_checksums;
         if (beginning.begin.has_settings()) settings_ = recorded_settings(beginning.begin);
         description_ = recorded_description(beginning.begin);
     } catch (const InvalidInput& e) {
-        in_.fail(e.what());
+        messages_.fail(e.what());
     }
 }
 
 std::optional<RecordingStream::Frame> RecordingStream::next(RecordedParticles& particles) {
     while (true) {
         entry_at_ = messages_.position();
+        if (messages_.follows(files::brick_file_magic))
+            fail("bricks behind a recording: a pipe has particles or finished bricks, and not both");
         const auto bytes = messages_.next(files::max_recording_entry_bytes);
         if (!bytes) return std::nullopt;
         v1::RecordingEntry entry;
@@ -73,7 +78,7 @@ RecordingStream::Frame RecordingStream::announced(const v1::RecordedParticles& e
 
 void RecordingStream::fail(const std::string& what) const {
     const std::string behind = last_frame_ ? ", behind frame " + std::to_string(*last_frame_) : "";
-    in_.fail("at byte " + std::to_string(entry_at_) + behind + ": " + what);
+    messages_.fail("at byte " + std::to_string(entry_at_) + behind + ": " + what);
 }
 
 }  // namespace meniscus::formats

@@ -3,12 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "formats/bytes/read_limits.hpp"
-#include "formats/recordings/input_pipe.hpp"
 #include "formats/recordings/piped_messages.hpp"
 #include "formats/recordings/recording.hpp"
 #include "meniscus/client/session_info.hpp"
@@ -19,9 +17,9 @@ namespace meniscus::formats {
 
 class RecordingStream {
 public:
-    /// Reads the beginning, of which the version alone must be there. path: "-" is standard input. limits: of a frame's
+    /// Reads the beginning, of which the version alone must be there, and borrows the messages. limits: of a frame's
     /// bytes. Throws InvalidInput, in one line that names the input and the byte, for what is no recording.
-    explicit RecordingStream(const std::filesystem::path& path, const ReadLimits& limits = {});
+    explicit RecordingStream(PipedMessages& messages, const ReadLimits& limits = {});
 
     /// What the beginning says of the session; no settings: it leaves them to the reader.
     const std::optional<Settings>& settings() const noexcept { return settings_; }
@@ -31,20 +29,16 @@ public:
         std::uint64_t index = 0;
         double simulation_time = 0.0;  ///< seconds
     };
-    /// Waits for the next frame and fills the particles, whose memory stays; none at the end, and after stop(). Meshes
-    /// are passed over. Throws InvalidInput, in one line that names the input, the frame and the byte, for what is no
-    /// recording, for bytes that do not have their checksum, and where it ends within a frame.
+    /// Waits for the next frame and fills the particles, whose memory stays; none at the end. Meshes are passed over.
+    /// Throws InvalidInput, in one line that names the input, the frame and the byte, for what is no recording, for
+    /// bytes that do not have their checksum, and where it ends within a frame.
     std::optional<Frame> next(RecordedParticles& particles);
-
-    /// Ends a next() that waits: the input then ends where it is. Any thread may call it.
-    void stop() noexcept { in_.stop(); }
 
 private:
     Frame announced(const v1::RecordedParticles& entry) const;
     [[noreturn]] void fail(const std::string& what) const;
 
-    InputPipe in_;
-    PipedMessages messages_;
+    PipedMessages& messages_;
     ReadLimits limits_;
     std::uint64_t entry_at_ = 0;
     bool has_checksums_ = false;

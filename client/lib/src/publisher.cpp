@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "connection/deadline.hpp"
-#include "meniscus/error.hpp"
+#include "meniscus/client/surface_part.hpp"
 #include "published_frame.hpp"
 #include "stream_impl.hpp"
 
@@ -47,13 +47,9 @@ Publisher::~Publisher() {
     if (impl_) impl_->leave();
 }
 
-void Publisher::push(const Mesh& mesh, const Statistics& statistics, std::uint64_t index, double simulation_time) {
-    if (mesh.lattice.bricks.size() != mesh.bricks.size())
-        throw InvalidInput("frame " + std::to_string(index) +
-                           ": the mesh has no lattice, of which its bricks are made: reconstruct it with keep_lattice");
-    CodingOptions coding = coding_;
-    coding.attributes = coded_attributes(mesh, attribute_ranges(mesh), wishes_);
-    push(encode_frame(mesh, statistics, index, simulation_time, coding));
+void Publisher::push(const Mesh& mesh, const Statistics& statistics, std::uint64_t index, double simulation_time,
+                     const BrickBox& own) {
+    push(encode_own(mesh, statistics, index, simulation_time, own, coding_, wishes_));
 }
 
 void Publisher::push(const ReceivedFrame& frame) {

@@ -6,7 +6,7 @@ from typing import Any, Callable, Mapping, Optional, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from .types import Real, Whole
+from .types import BrickBox, Real, Whole
 
 Options = Mapping[str, str]
 Array = NDArray[Any]
@@ -155,7 +155,9 @@ class Stream:
     def cancel(self) -> None: ...
 
 class Publisher:
-    def push_mesh(self, mesh: Mesh, index: Optional[Whole], time: Real) -> int: ...
+    def push_mesh(
+        self, mesh: Mesh, index: Optional[Whole], time: Real, bricks: Optional[BrickBox]
+    ) -> int: ...
     def push_frame(self, frame: Frame, index: Optional[Whole], time: Real) -> int: ...
     def finish(self) -> None: ...
     def dropped(self) -> int: ...

@@ -10,7 +10,7 @@ from . import _meniscus
 from .errors import InvalidInput
 from .frame import Frame
 from .mesh import Mesh
-from .types import Real, Whole
+from .types import BrickBox, Real, Whole
 from .uploading import Uploads
 
 
@@ -28,7 +28,14 @@ class Publisher(Uploads):
         super().__init__(raw, lambda frame: Frame(frame, has_mesh=False))
         self._raw = raw
 
-    def push(self, surface: Union[Mesh, Frame], *, time: Optional[Real] = None, index: Optional[Whole] = None) -> int:
+    def push(
+        self,
+        surface: Union[Mesh, Frame],
+        *,
+        time: Optional[Real] = None,
+        index: Optional[Whole] = None,
+        bricks: Optional[BrickBox] = None,
+    ) -> int:
         """Publishes one surface; waits while the server does not take more. Returns the frame's index.
 
         surface: a Mesh of a Reconstructor with ``keep_lattice=True``, encoded here, with its spray and all of its
@@ -36,19 +43,38 @@ class Publisher(Uploads):
         whole, with all attributes, and of the codec "packed" or "entropy". ``time`` is the simulation's; None: a
         frame's own, 0 for a mesh. ``index`` is greater than the one before; None: by one, from 0.
 
-        Raises InvalidInput for a mesh without its lattice, which is then not pushed; InvalidInput, LimitExceeded or
-        ServerError for what the server has refused. Ctrl-C in a wait cancels the publisher.
+        bricks: with ``parts``, those that this one publishes of a Mesh that reaches farther, such as that of a rank
+        with particles of its neighbors: (lowest, highest), both among them, each x y z, with None for no end. The boxes
+        of all publishers cover the surface, and no brick is in two of them. The brick (x, y, z) covers the world from
+        (x, y, z) to (x + 1, y + 1, z + 1) times its edge, which is 64 * cell_size * particle_radius. With the default
+        settings the bricks of a box are those of the whole frame where the mesh was made of all particles within 27
+        radii of it. Counts of the mesh and the volume are those of the box, figures of the particles and of the work
+        stay the mesh's; attributes of float32 want ``attribute_bits=0``, since all parts round over one range. None:
+        all bricks.
+
+        Raises InvalidInput for a mesh without its lattice and for a box that is none, which is then not pushed;
+        InvalidInput, LimitExceeded or ServerError for what the server has refused. Ctrl-C in a wait cancels the
+        publisher.
         """
         if isinstance(surface, Mesh):
-            return self._raw.push_mesh(surface._raw, index, 0.0 if time is None else time)
+            return self._raw.push_mesh(surface._raw, index, 0.0 if time is None else time, bricks)
         if isinstance(surface, Frame):
+            if bricks is not None:
+                raise InvalidInput("bricks are chosen of a Mesh; those of a Frame are all published")
             surface.require_mesh()
             return self._raw.push_frame(surface._raw, index, surface.time if time is None else time)
         raise InvalidInput(f"surface is of the type {type(surface).__name__}, must be a Mesh or a Frame")
 
     async def apush(
-        self, surface: Union[Mesh, Frame], *, time: Optional[Real] = None, index: Optional[Whole] = None
+        self,
+        surface: Union[Mesh, Frame],
+        *,
+        time: Optional[Real] = None,
+        index: Optional[Whole] = None,
+        bricks: Optional[BrickBox] = None,
     ) -> int:
         """push() for asyncio, one after the other. A task that is cancelled while it waits has pushed the surface all
         the same."""
-        return await asyncio.wrap_future(self._pushes.call(partial(self.push, surface, time=time, index=index)))
+        return await asyncio.wrap_future(
+            self._pushes.call(partial(self.push, surface, time=time, index=index, bricks=bricks))
+        )

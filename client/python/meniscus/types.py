@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol, Sequence, Union
+from typing import TYPE_CHECKING, Any, Optional, Protocol, Sequence, Union
 
 import numpy as np
 
@@ -44,3 +44,5 @@ ArrayLike = Union["NDArray[Any]", SupportsArray, SupportsDLPack, OnGpu, Sequence
 Point = Union[Sequence[Real], "NDArray[Any]"]
 #: The smallest and the largest corner, world units.
 Box = Union[Sequence[Point], "NDArray[Any]"]
+#: The lowest and the highest brick, both among them: x y z of each, None for no end.
+BrickBox = Sequence[Sequence[Optional[Whole]]]

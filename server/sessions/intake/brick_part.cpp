@@ -44,6 +44,8 @@ std::vector<CodedAttribute> attributes_of(const v1::MeshBegin& mesh, const Setti
     std::vector<CodedAttribute> attributes = conversion::coded_attributes(mesh);
     if (attributes.size() != static_cast<std::size_t>(mesh.attributes_size()))
         throw InvalidInput("an attribute has no bits; published bricks carry all attributes that are announced");
+    // Without bricks there are no values: as a stream's part without particles, it need not know what others bring.
+    if (attributes.empty() && mesh.brick_count() == 0) return attributes;
     const bool are_named =
         settings.all_attributes || std::ranges::equal(attributes, settings.attributes, {}, &CodedAttribute::name);
     if (!are_named) {
@@ -175,13 +177,21 @@ BrickPart brick_part(const v1::PublishBegin& message, const Settings& settings) 
     return part;
 }
 
+const BrickPart& lead_of(std::span<const BrickPart> parts) {
+    const auto with_bricks = std::ranges::find_if(parts, [](const BrickPart& part) { return part.bricks != 0; });
+    if (with_bricks != parts.end()) return *with_bricks;
+    const auto naming = std::ranges::find_if(parts, [](const BrickPart& part) { return !part.attributes.empty(); });
+    return naming != parts.end() ? *naming : parts.front();
+}
+
 void require_same_surface(std::span<const BrickPart> parts) {
-    for (std::size_t i = 1; i < parts.size(); ++i)
-        if (parts[i].attributes != parts[0].attributes)
+    const BrickPart& lead = lead_of(parts);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (parts[i].bricks != 0 && parts[i].attributes != lead.attributes)
             throw InvalidInput(
-                fmt::format("part {} has the attributes {}, and part 0 {}, or their types, components, bits or coded "
+                fmt::format("part {} has the attributes {}, and part {} {}, or their types, components, bits or coded "
                             "ranges differ; in all parts of a frame they are the same",
-                            i, names_of(parts[i].attributes), names_of(parts[0].attributes)));
+                            i, names_of(parts[i].attributes), &lead - parts.data(), names_of(lead.attributes)));
 }
 
 std::vector<AttributeRange> joint_ranges(std::span<const BrickPart> parts) {

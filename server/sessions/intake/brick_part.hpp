@@ -27,7 +27,11 @@ struct BrickPart {
 /// Throws InvalidInput for what cannot be of a surface of these settings.
 BrickPart brick_part(const v1::PublishBegin& message, const Settings& settings);
 
-/// Throws InvalidInput, with the number of the part, for one that cannot be in one frame with the first.
+/// The part whose attributes are those of the frame: the first one with bricks; of a frame without bricks the first one
+/// that names any.
+const BrickPart& lead_of(std::span<const BrickPart> parts);
+
+/// Throws InvalidInput, with the number of the part, for one with bricks that cannot be in one frame with the lead.
 void require_same_surface(std::span<const BrickPart> parts);
 
 /// The ranges of attributes over all parts; none if no part has vertices.

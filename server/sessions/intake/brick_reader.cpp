@@ -11,6 +11,7 @@
 
 #include "conversion/brick_conversion.hpp"
 #include "conversion/spray_conversion.hpp"
+#include "meniscus/array_form.hpp"
 #include "meniscus/brick_recoding.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/v1/surface_service.pb.h"
@@ -160,6 +161,15 @@ void require_same_form(const EncodedBrick& brick, const FinishedBricks& all) {
                                        place_of(brick), bits, all.normal_bits));
 }
 
+/// In words.
+std::string forms_of(const std::vector<CodedAttribute>& attributes) {
+    std::string words;
+    for (const CodedAttribute& attribute : attributes)
+        words += fmt::format("{}'{}', {}", words.empty() ? "" : "; ", attribute.name,
+                             form_of(attribute.type, attribute.components));
+    return words.empty() ? "none" : words;
+}
+
 /// Calls work(); says of which part what it throws is, if there are several.
 template <class Work>
 void about_part(std::size_t part, std::size_t parts, const Work& work) {
@@ -216,6 +226,19 @@ void BrickReader::require_in_domain(const EncodedBrick& brick) const {
     }
 }
 
+std::vector<CodedAttribute> BrickReader::attributes_of(std::span<const BrickPart> parts) const {
+    const BrickPart& lead = lead_of(parts);
+    if (attributes_.empty()) return lead.attributes;
+    if (lead.attributes.empty() && lead.bricks == 0) return attributes_;
+    const auto have_same_form = [](const CodedAttribute& a, const CodedAttribute& b) {
+        return a.name == b.name && a.type == b.type && a.components == b.components;
+    };
+    if (!std::ranges::equal(lead.attributes, attributes_, have_same_form))
+        throw InvalidInput(fmt::format("the attributes are {}, must be as in the frames before: {}",
+                                       forms_of(lead.attributes), forms_of(attributes_)));
+    return lead.attributes;
+}
+
 BrickReader::Known BrickReader::checked(const Brick& brick, const std::vector<CodedAttribute>& attributes,
                                         const Known* before) {
     stop_if_asked();
@@ -236,7 +259,7 @@ BrickReader::Known BrickReader::checked(const Brick& brick, const std::vector<Co
 
 void BrickReader::read(const InputFrame& input, ReconstructedFrame& frame) {
     const std::span<const BrickPart> parts(input.brick_parts);
-    const std::vector<CodedAttribute>& attributes = parts.front().attributes;
+    const std::vector<CodedAttribute> attributes = attributes_of(parts);
     Mesh& mesh = frame.mesh;
     mesh = {};
     mesh.cell_size = world_cell_size(settings_);
@@ -278,6 +301,7 @@ void BrickReader::read(const InputFrame& input, ReconstructedFrame& frame) {
         require_closed(open, mesh, scratch_.account());
     }
     known_ = std::move(known);
+    attributes_ = finished->attributes;
     frame.finished = std::move(finished);
     frame.statistics = joint_statistics(parts);
     frame.ranges = {};

@@ -57,6 +57,8 @@ private:
     std::vector<Brick> bricks_of(const InputFrame& input, Array<Point>& spray) const;
     void stop_if_asked() const;
     void require_in_domain(const EncodedBrick& brick) const;
+    /// The attributes of a frame, as its bricks carry them. Throws InvalidInput for others than frames before it had.
+    std::vector<CodedAttribute> attributes_of(std::span<const BrickPart> parts) const;
     Known checked(const Brick& brick, const std::vector<CodedAttribute>& attributes, const Known* before);
 
     const Settings settings_;
@@ -64,7 +66,8 @@ private:
     const std::shared_ptr<WorkerPool> workers_;
     ScratchPool scratch_;
     const std::shared_ptr<StopFlag> stop_;
-    std::vector<Known> known_;  ///< of the last frame, ordered by place
+    std::vector<Known> known_;                ///< of the last frame, ordered by place
+    std::vector<CodedAttribute> attributes_;  ///< of the last frame that had any
 };
 
 }  // namespace meniscus::server

@@ -1,10 +1,13 @@
 // The C interface: surfaces that are made in this process, for the watchers of a session of a meniscusd.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
 #include <thread>
 
 #include "in_process.hpp"
+#include "meniscus/brick_box.hpp"
+#include "meniscus/mesh_hash.hpp"
 #include "through_server.hpp"
 
 namespace meniscus::test {
@@ -110,6 +113,59 @@ TEST_F(CPublishers, OfBricksThatEachHasAloneMakeOneSurface) {
             << meniscus_error_message();
         EXPECT_EQ(statistics_of(answer).particles, whole.count());
     }
+}
+
+TEST_F(CPublishers, OfTheirOwnBricksOfMeshesThatOverlapMakeOneSurface) {
+    const Particles whole = splash(3, 24);
+    const Mesh expected = reconstruct(default_settings(), whole.frame());
+    constexpr std::int32_t below = std::numeric_limits<std::int32_t>::min();
+    constexpr std::int32_t above = std::numeric_limits<std::int32_t>::max();
+    // Cut before brick 1 along x, and in the second part before brick 1 along y.
+    const std::int32_t lowest[3][3] = {{below, below, below}, {1, below, below}, {1, 1, below}};
+    const std::int32_t highest[3][3] = {{0, above, above}, {above, 0, above}, {above, above, above}};
+    const double edge = 64 * 0.5 * 0.025;
+    const double reach = halo(default_settings()) * 0.025;
+    const CReconstructor reconstructor = publishing_reconstructor();
+    CPublisher publishers[3];
+    publishers[0] = open({{"parts", "3"}, {"part", "0"}, {"run", "78"}});
+    for (unsigned p = 1; p < 3; ++p)
+        publishers[p] = open({{"session", meniscus_publisher_session_id(publishers[0].get())},
+                              {"parts", "3"},
+                              {"part", p == 1 ? "1" : "2"},
+                              {"run", "78"}});
+    const CWatcher watcher = watch(publishers[0]);
+    for (unsigned p = 0; p < 3; ++p) {
+        Particles mine;
+        for (std::size_t i = 0; i < whole.count(); ++i) {
+            const float* const at = &whole.positions[3 * i];
+            bool is_near = true;
+            for (unsigned axis = 0; axis < 3; ++axis)
+                is_near &=
+                    at[axis] >= lowest[p][axis] * edge - reach && at[axis] <= (highest[p][axis] + 1.0) * edge + reach;
+            if (is_near) mine.add(at[0], at[1], at[2]);
+        }
+        ASSERT_EQ(meniscus_publisher_push_box(publishers[p].get(), surface_of(reconstructor, mine).get(), lowest[p],
+                                              highest[p], 4, 1.0),
+                  MENISCUS_OK)
+            << meniscus_error_message();
+    }
+    CFrame seen;
+    ASSERT_EQ(meniscus_watcher_next(watcher.get(), patience, seen.out()), MENISCUS_OK) << meniscus_error_message();
+    EXPECT_EQ(sha256_of(seen), mesh_sha256(expected));
+    CFrame answer;
+    ASSERT_EQ(meniscus_publisher_next(publishers[2].get(), patience, answer.out()), MENISCUS_OK)
+        << meniscus_error_message();
+    EXPECT_EQ(statistics_of(answer).triangles, expected.triangles.size());
+    EXPECT_EQ(statistics_of(answer).vertices, expected.vertices.size());
+    const std::int32_t high[3] = {1, 1, 1};
+    const std::int32_t low[3] = {0, 2, 0};
+    const CMesh mesh = surface_of(reconstructor, splash(2, 3));
+    EXPECT_TRUE(refused(meniscus_publisher_push_box(publishers[0].get(), mesh.get(), low, high, 5, 0.0),
+                        MENISCUS_INVALID_INPUT, "the box of bricks runs from (0, 2, 0) to (1, 1, 1)"));
+    EXPECT_TRUE(refused(meniscus_publisher_push_box(publishers[0].get(), mesh.get(), nullptr, high, 5, 0.0),
+                        MENISCUS_INVALID_INPUT, "lowest is NULL"));
+    EXPECT_TRUE(refused(meniscus_publisher_push_box(publishers[0].get(), mesh.get(), low, nullptr, 5, 0.0),
+                        MENISCUS_INVALID_INPUT, "highest is NULL"));
 }
 
 TEST_F(CPublishers, RefuseMeshesWithoutTheirLatticeAndGoOn) {

@@ -83,6 +83,54 @@ def test_the_bricks_of_two_publishers_are_one_surface(client, session):
         assert all(answer.statistics.triangles == len(whole.triangles) for answer in of_part)
 
 
+def near(positions, lowest, highest, reach):
+    """Those in a box and in a halo around it."""
+    return positions[np.all((positions >= lowest - reach) & (positions <= highest + reach), axis=1)]
+
+
+def test_ranks_with_halos_publish_the_bricks_that_are_their_own(client, session):
+    x = ball(2.0)
+    whole = meniscus.reconstruct(x, particle_radius)
+    edge, reach, far = 64 * 0.5 * particle_radius, 27 * particle_radius, 1e9
+    boxes = [((None, None, None), (-1, None, None)), ((0, None, None), (None, -1, None)), ([0, 0, None], 3 * [None])]
+    ends = [([-far] * 3, [0, far, far]), ([0, -far, -far], [far, 0, far]), ([0, 0, -far], [far] * 3)]
+    assert edge < 2.0
+    answers = []
+
+    def rank(part):
+        mine = near(x, *map(np.array, ends[part]), reach)
+        assert len(mine) < len(x)
+        with client.publish(session, part=part, parts=3, run=5) as publisher:
+            publisher.push(reconstructor().reconstruct(mine), bricks=boxes[part])
+        answers.extend(publisher.ready())
+
+    together(*(lambda part=part: rank(part) for part in range(3)))
+    shown = client.snapshot(session)
+    assert shown.mesh.sha256() == whole.sha256() and shown.mesh.bricks_sha256() == whole.bricks_sha256()
+    assert [answer.statistics.triangles for answer in answers] == 3 * [len(whole.triangles)]
+    assert shown.statistics.volume == pytest.approx(whole.statistics.volume, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "bricks", [5, (1, 2), ((0, 0, 0),), ((0, 0), (1, 1)), ((0, 0, 0.5), (1, 1, 1)), "ab", (None, None)]
+)
+def test_a_box_that_is_none_is_refused_and_the_publisher_goes_on(session, surface, bricks):
+    with session.publish() as publisher:
+        with pytest.raises(meniscus.InvalidInput, match="bricks is .*, must be \\(lowest, highest\\)"):
+            publisher.push(surface, bricks=bricks)
+        assert publisher.push(surface) == 0
+
+
+def test_a_box_without_bricks_is_a_part_of_a_surface(client, session, surface):
+    with session.publish() as publisher:
+        publisher.push(surface, bricks=((900, 0, 0), (901, 0, 0)))
+        assert publisher.next(60).statistics.triangles == 0
+        with pytest.raises(meniscus.InvalidInput, match="the lowest must not be beyond the highest"):
+            publisher.push(surface, bricks=((2**31 - 1, 0, 0), (0, 0, 0)))
+        with pytest.raises(meniscus.InvalidInput, match="bricks are chosen of a Mesh"):
+            publisher.push(client.snapshot(session), bricks=((0, 0, 0), (1, 1, 1)))
+
+
 def test_a_frame_of_a_file_passes_as_it_is(client, session, surface, tmp_path):
     with client.session(particle_radius) as other:
         with other.publish() as publisher:

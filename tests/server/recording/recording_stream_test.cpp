@@ -51,7 +51,9 @@ protected:
         });
         Read result;
         try {
-            RecordingStream stream(pipe_, limits);
+            formats::InputPipe pipe(pipe_);
+            formats::PipedMessages messages(pipe);
+            RecordingStream stream(messages, limits);
             RecordedParticles particles;
             while (const auto frame = stream.next(particles)) result.frames.emplace_back(*frame, particles);
         } catch (const InvalidInput& error) {
@@ -156,8 +158,9 @@ TEST_F(RecordingStreamed, RefusesWhatIsNoRecordingWithFrameAndByte) {
     std::string damaged = recorded(6, wave(2, 0.0));
     damaged[damaged.size() - 10] ^= 1;
     const std::vector<std::pair<std::string, std::string>> cases{
-        {"", "not a recording"},
-        {"Meniscus bricks\n", "(byte 9 is another"},
+        {"", "neither a recording nor bricks"},
+        {"Meniscus brocks\n", "(byte 9 is another"},
+        {beginning() + first + "Meniscus bricks\n", place + "bricks behind a recording"},
         {magic, "before its first entry"},
         {magic + first, "its first entry is not its beginning"},
         {beginning() + first + beginning().substr(magic.size()), place + "a second beginning"},
@@ -191,11 +194,13 @@ TEST_F(RecordingStreamed, EndsWhenItIsStoppedThoughItsPipeGoesOn) {
     const std::string bytes = beginning() + recorded(0, wave(2, 0.0));
     const int both = ::open(pipe_.c_str(), O_RDWR | O_CLOEXEC);
     ASSERT_EQ(::write(both, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
-    RecordingStream stream(pipe_);
+    formats::InputPipe pipe(pipe_);
+    formats::PipedMessages messages(pipe);
+    RecordingStream stream(messages);
     RecordedParticles particles;
     ASSERT_TRUE(stream.next(particles));
     auto next = std::async(std::launch::async, [&] { return stream.next(particles).has_value(); });
-    stream.stop();
+    pipe.stop();
     EXPECT_FALSE(next.get());
     EXPECT_FALSE(stream.next(particles));
     ::close(both);

@@ -204,10 +204,11 @@ MENISCUS_API meniscus_result meniscus_reconstructor_statistics(const meniscus_re
 
 /* A library that was built without the service starts a program that has it for each session, `meniscus push`: the one
  * that MENISCUS_PROGRAM names, or else `meniscus` in PATH, which meniscus_client_connect() looks for; the server is
- * asked when the session is opened. Frames then have index, time and figures, but no mesh. What else is not to be had
- * through that program returns MENISCUS_UNIMPLEMENTED, with a sentence: publishers, watchers,
- * meniscus_client_delete_session(), meniscus_session_leave(), meniscus_session_try_push(), meniscus_frame_mesh(), and
- * the options timeout, route-check and ephemeral set to false. Options about meshes change nothing there. */
+ * asked when the session or the publisher is opened. Frames then have index, time and figures, but no mesh. What else
+ * is not to be had through that program returns MENISCUS_UNIMPLEMENTED, with a sentence: watchers,
+ * meniscus_client_delete_session(), meniscus_session_leave(), meniscus_session_try_push(), meniscus_publisher_leave(),
+ * meniscus_frame_mesh(), and the options timeout, route-check and ephemeral set to false. A session's options about
+ * meshes change nothing there; a publisher encodes its bricks in this process, as they say. */
 
 /* A connection to one meniscusd; any thread may use it at any time. Sessions and watchers outlive it. */
 typedef struct meniscus_client meniscus_client;
@@ -291,6 +292,17 @@ MENISCUS_API const char* meniscus_publisher_session_id(const meniscus_publisher*
  * is closed is the caller's promise. `index`, refusals and threads are those of meniscus_session_push(). */
 MENISCUS_API meniscus_result meniscus_publisher_push(meniscus_publisher* publisher, const meniscus_mesh* mesh,
                                                      uint64_t index, double simulation_time);
+/* Publishes the bricks from `lowest` to `highest`, x y z, both of them among these, of a mesh that reaches farther,
+ * such as that of a rank with particles of its neighbors: with parts, the boxes of all publishers cover the surface,
+ * and no brick is in two of them. The brick (x, y, z) covers the world from (x, y, z) to (x + 1, y + 1, z + 1) times
+ * its edge, which is 64 times cell-size times particle-radius; INT32_MIN and INT32_MAX stand for no end. With the
+ * default settings, the bricks of a box are those of the whole frame where the mesh was made of all particles within 27
+ * radii of the box (core/README.md#parts-of-a-frame has the rule). Counts of the mesh and the volume are those of the
+ * box; figures of the particles and of the work stay the mesh's. Attributes of float32 want the option attribute-bits
+ * set to 0, since all parts round over one range. Since 0.2. */
+MENISCUS_API meniscus_result meniscus_publisher_push_box(meniscus_publisher* publisher, const meniscus_mesh* mesh,
+                                                         const int32_t lowest[3], const int32_t highest[3],
+                                                         uint64_t index, double simulation_time);
 /* No more surfaces will be pushed; next() then ends after the last one. */
 MENISCUS_API meniscus_result meniscus_publisher_finish(meniscus_publisher* publisher);
 /* Waits as meniscus_session_next() does, for the answer that watchers have the next frame: index, time and figures. */

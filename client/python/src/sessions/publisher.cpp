@@ -5,6 +5,7 @@
 #include "bindings.hpp"
 #include "text_options/client_options.hpp"
 #include "threads/ending.hpp"
+#include "values/brick_box.hpp"
 #include "values/keywords.hpp"
 
 namespace py = pybind11;
@@ -15,12 +16,15 @@ client::PublisherOptions publisher_options(const text_options::Options& options,
     return request_of(options, on_reconnect, text_options::read_publisher);
 }
 
-std::uint64_t SurfacePublisher::push_mesh(const MeshHandle& mesh, const py::object& index, double time) {
+std::uint64_t SurfacePublisher::push_mesh(const MeshHandle& mesh, const py::object& index, double time,
+                                          const py::object& bricks) {
     require_own_process();
     rest_at_end();
     const Computation encoding;
-    return send_in_turn(index_of(index), [this, time, content = mesh.mesh, statistics = statistics_of(mesh)](
-                                             std::uint64_t sent) { source_.push(*content, statistics, sent, time); });
+    return send_in_turn(index_of(index), [this, time, content = mesh.mesh, statistics = statistics_of(mesh),
+                                          own = brick_box(bricks, "bricks")](std::uint64_t sent) {
+        source_.push(*content, statistics, sent, time, own);
+    });
 }
 
 std::uint64_t SurfacePublisher::push_frame(const FrameHandle& frame, const py::object& index, double time) {

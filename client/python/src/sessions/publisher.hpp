@@ -24,7 +24,9 @@ public:
 
     // Both encode and wait without the interpreter's lock. index: None for the one after the last. They return it.
 
-    std::uint64_t push_mesh(const MeshHandle& mesh, const pybind11::object& index, double time);
+    /// bricks: see brick_box().
+    std::uint64_t push_mesh(const MeshHandle& mesh, const pybind11::object& index, double time,
+                            const pybind11::object& bricks);
     /// A frame that was received, as it came.
     std::uint64_t push_frame(const FrameHandle& frame, const pybind11::object& index, double time);
 };

@@ -21,6 +21,7 @@ with client.session(0.1, name="dam", up_axis="z", field="color", iso=0.5) as ses
         index: int = stream.push(x, attributes={"velocity": x}, time=np.float64(1.0), index=3)
     with client.publish(session, codec="entropy", parts=2, part=1, run=7) as publisher:
         place: int = publisher.push(meniscus.reconstruct(x, 0.1, keep_lattice=True), time=1, index=np.int64(2))
+        publisher.push(meniscus.reconstruct(x, 0.1, keep_lattice=True), bricks=((None, 0, 0), [1, np.int32(2), None]))
     for frame in client.watch(session, max_level=2, viewpoint=(0, 0, 1), attributes=["velocity"]):
         size: float = frame.mesh.area + frame.mesh.volume + float(frame.mesh.bounds[0, 0])
     for info in client.sessions():

@@ -42,6 +42,7 @@ stream.push(x, time="now")  # wrong
 stream.apush(x, velocity=x)  # wrong
 session.publish(meshes=False)  # wrong
 session.publish().push(x)  # wrong
+session.publish().push(reconstructor.reconstruct(x), bricks=3)  # wrong
 client.publish("dam", attribute_bits="all")  # wrong
 meniscus.read_particles(5)  # wrong
 meniscus.show("dam")  # wrong

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "meniscus/attribute_coding.hpp"
+#include "meniscus/brick_box.hpp"
 #include "meniscus/client/next.hpp"
 #include "meniscus/client/received_frame.hpp"
 #include "meniscus/client/reconnect_event.hpp"
@@ -70,8 +71,12 @@ public:
 
     /// Publishes a surface of Reconstructor::reconstruct(), which has kept its lattice (BackendOptions::keep_lattice),
     /// with its spray and all of its attributes. `index` is greater than the one before. Blocks as Stream::push() does.
-    /// Throws InvalidInput, too, for a mesh without its lattice.
-    void push(const Mesh& mesh, const Statistics& statistics, std::uint64_t index, double simulation_time);
+    /// own: with `parts`, the bricks that this one publishes of a mesh that reaches farther, such as that of a rank
+    /// with the particles of its neighbors within margin(settings) around these bricks. The boxes of all parts cover
+    /// the surface, and no brick is in two of them; part_of() says what becomes of the statistics. Throws InvalidInput,
+    /// too, for a mesh without its lattice, and for a box whose lowest brick is beyond its highest.
+    void push(const Mesh& mesh, const Statistics& statistics, std::uint64_t index, double simulation_time,
+              const BrickBox& own = {});
     /// Publishes bricks that are encoded: a whole frame, or those that this part has. Bricks carry all attributes that
     /// the frame has. With `parts`: the statistics are those of this part, a vertex on the border of two parts counts
     /// in one of them, and coded_attributes, which are the same in all parts, hold the values of the whole frame.
