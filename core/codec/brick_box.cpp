@@ -13,9 +13,7 @@
 namespace meniscus {
 namespace {
 
-using Place = std::array<std::int32_t, 3>;
-
-std::string text_of(const Place& place) {
+std::string text_of(const BrickCoordinate& place) {
     return "(" + std::to_string(place[0]) + ", " + std::to_string(place[1]) + ", " + std::to_string(place[2]) + ")";
 }
 
@@ -68,8 +66,8 @@ std::int64_t doubled_area(const Mesh& mesh, const Triangle& triangle) {
 std::uint64_t sixfold_volume_within(const Mesh& mesh, const BrickBox& box) {
     if (mesh.bricks.empty()) return 0;
     // Beyond the mesh there is nothing: a box without an end there has that of the mesh.
-    const std::int64_t lowest = std::max(box.lowest[2], mesh.bricks.front().coordinate[2]);
-    const std::int64_t highest = std::min(box.highest[2], mesh.bricks.back().coordinate[2]);
+    const std::int64_t lowest = std::max(box.low[2], mesh.bricks.front().coordinate[2]);
+    const std::int64_t highest = std::min(box.high[2] - 1, mesh.bricks.back().coordinate[2]);
     if (lowest > highest) return 0;
     const std::int64_t edge = std::int64_t{brick_cells} << mesh.offset_bits;
     const auto bottom = static_cast<std::uint64_t>(lowest * edge);
@@ -79,7 +77,7 @@ std::uint64_t sixfold_volume_within(const Mesh& mesh, const BrickBox& box) {
     std::uint64_t area_above = 0;
     for (const MeshBrick& brick : mesh.bricks) {
         const bool is_above = brick.coordinate[2] > highest;
-        if (!box.contains({brick.coordinate[0], brick.coordinate[1], is_above ? box.highest[2] : brick.coordinate[2]}))
+        if (!box.holds({brick.coordinate[0], brick.coordinate[1], is_above ? box.low[2] : brick.coordinate[2]}))
             continue;
         for_each_triangle(mesh, brick, [&](const Triangle& triangle) {
             const auto area = static_cast<std::uint64_t>(doubled_area(mesh, triangle));
@@ -101,7 +99,7 @@ std::uint64_t vertices_first_in(const Mesh& mesh, const BrickBox& box) {
     std::vector<bool> seen(mesh.vertices.size());
     std::uint64_t count = 0;
     for (const MeshBrick& brick : mesh.bricks) {
-        const bool is_within = box.contains(brick.coordinate);
+        const bool is_within = box.holds(brick.coordinate);
         for_each_triangle(mesh, brick, [&](const Triangle& triangle) {
             for (const std::uint32_t vertex : triangle) {
                 if (is_within && !seen[vertex]) ++count;
@@ -130,7 +128,7 @@ std::vector<Point> spray_within(const Mesh& mesh, const BrickBox& box) {
     const auto is_within = [&](const Point& point) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double brick = std::floor(double{point[axis]} / edge);
-            if (brick < box.lowest[axis] || brick > box.highest[axis]) return false;
+            if (brick < box.low[axis] || brick >= box.high[axis]) return false;
         }
         return true;
     };
@@ -148,15 +146,24 @@ double halo(const Settings& settings) {
     return margin(settings) + around * base_cell_size * settings.cell_size;
 }
 
-SurfacePart part_of(const Mesh& mesh, const Statistics& statistics, const BrickBox& box) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (box.lowest[axis] > box.highest[axis])
-            throw InvalidInput("the box of bricks runs from " + text_of(box.lowest) + " to " + text_of(box.highest) +
+BrickBox bricks_between(const BrickCoordinate& lowest, const BrickCoordinate& highest) {
+    BrickBox box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (lowest[axis] > highest[axis])
+            throw InvalidInput("the box of bricks runs from " + text_of(lowest) + " to " + text_of(highest) +
                                "; the lowest must not be beyond the highest");
+        // Beyond there are none.
+        box.low[axis] = std::clamp(lowest[axis], -brick_end, brick_end);
+        box.high[axis] = std::clamp(highest[axis], -brick_end - 1, brick_end - 1) + 1;
+    }
+    return box;
+}
+
+SurfacePart part_of(const Mesh& mesh, const Statistics& statistics, const BrickBox& box) {
     SurfacePart part;
     part.statistics = statistics;
     for (std::size_t b = 0; b < mesh.bricks.size(); ++b)
-        if (box.contains(mesh.bricks[b].coordinate)) part.bricks.push_back(static_cast<std::uint32_t>(b));
+        if (box.holds(mesh.bricks[b].coordinate)) part.bricks.push_back(static_cast<std::uint32_t>(b));
     part.ranges = ranges_of(mesh, vertices_of(mesh, part.bricks));
     part.spray = spray_within(mesh, box);
     count(mesh, box, part);

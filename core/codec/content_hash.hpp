@@ -11,7 +11,7 @@
 #include <vector>
 
 #ifndef MENISCUS_XXHASH
-#include "codec/lattice/packed_hash.hpp"
+#include "lattice/word_hash.hpp"
 #endif
 
 #include "meniscus/attribute_coding.hpp"
@@ -38,7 +38,7 @@ private:
 #ifdef MENISCUS_XXHASH
     XXH3_state_t state_;
 #else
-    PackedHash sums_{};
+    WordHash sums_{};
     std::uint64_t words_ = 0;  ///< number of words added
 #endif
 };

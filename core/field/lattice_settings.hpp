@@ -8,6 +8,7 @@
 #include "field/smooth_field.hpp"
 #include "lattice/coordinates.hpp"
 #include "lattice/host_device.hpp"
+#include "lattice/lattice_part.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 
@@ -58,6 +59,10 @@ struct LatticeSettings {
 
     bool has_domain = false;
     Int3 domain_low, domain_high;  ///< in cells, rounded outward
+    LatticePart part;              ///< the whole, unless a frame is reconstructed in parts
+
+    /// Whether base cells are left out however near particles are.
+    MENISCUS_HD bool leaves_cells_out() const { return has_domain || !part.is_whole; }
 
     /// Whether vertices of coarse edges lie half a sagitta out (steps/place_vertices/coarse_edges.hpp).
     MENISCUS_HD bool moves_coarse_vertices() const { return measures_bends && !bisects; }

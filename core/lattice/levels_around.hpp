@@ -6,6 +6,7 @@
 #include "lattice/bits.hpp"
 #include "lattice/blocks.hpp"
 #include "lattice/host_device.hpp"
+#include "lattice/lattice_part.hpp"
 #include "lattice/level_sets.hpp"
 
 namespace meniscus {
@@ -25,6 +26,15 @@ struct LevelsAround {
             const int highest = level_down(i);
             for (int level = 1; level <= 3; ++level) around.at_least[level] |= (level <= highest ? 1 : 0) << i;
         }
+        return around;
+    }
+    /// The same without the cells that are not a part's own. cell: the block's.
+    MENISCUS_HD LevelsAround within(const LatticePart& part, const Int3& cell) const {
+        LevelsAround around = *this;
+        if (part.is_whole) return around;
+        int own = 0;
+        for (int i = 0; i < 8; ++i) own |= (part.owns(cell + offset(i)) ? 1 : 0) << i;
+        for (int level = 1; level <= 3; ++level) around.at_least[level] &= own;
         return around;
     }
     MENISCUS_HD bool own_is_finest() const { return (at_least[3] & 1) != 0; }

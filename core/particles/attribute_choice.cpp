@@ -9,6 +9,7 @@
 #include "meniscus/array_form.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/quoted.hpp"
+#include "meniscus/reconstructor.hpp"
 
 namespace meniscus {
 namespace {
@@ -155,6 +156,68 @@ AttributeNumbers numbers_in_host_memory(std::span<const ParticleArray> chosen) {
         set_range(number, from_ordered_bits(least), from_ordered_bits(greatest));
     }
     return numbers;
+}
+
+namespace {
+
+/// Whether the number has a range of its array.
+bool is_ranged(const AttributeNumber& number, std::span<const ParticleArray> chosen) {
+    return number.type == ElementType::float32 && !chosen[number.array].data.empty();
+}
+
+std::uint32_t order_of(float value) {
+    return ordered_bits(AttributeNumber::as_bits(value));
+}
+
+void widen(ArrayRange& range, float least, float greatest) {
+    if (order_of(least) < order_of(range.least)) range.least = least;
+    if (order_of(greatest) > order_of(range.greatest)) range.greatest = greatest;
+}
+
+ArrayRange* find(std::vector<ArrayRange>& ranges, const ArrayRange& wanted) {
+    for (ArrayRange& range : ranges)
+        if (range.name == wanted.name && range.component == wanted.component) return &range;
+    return nullptr;
+}
+
+}  // namespace
+
+std::vector<ArrayRange> array_ranges(const ParticleFrame& frame, const Settings& settings) {
+    validate_lengths(frame);
+    const std::vector<ParticleArray> chosen = AttributeChoice(settings).of(frame);
+    const AttributeNumbers numbers = numbers_in_host_memory(chosen);
+    std::vector<ArrayRange> ranges;
+    for (unsigned i = 0; i < numbers.shape.amounts; ++i)
+        if (const AttributeNumber& number = numbers.of[i]; is_ranged(number, chosen))
+            ranges.push_back({std::string(chosen[number.array].name), number.component, number.least, number.greatest});
+    return ranges;
+}
+
+void widen(std::vector<ArrayRange>& ranges, const std::vector<ArrayRange>& others) {
+    for (const ArrayRange& other : others) {
+        if (ArrayRange* const range = find(ranges, other))
+            widen(*range, other.least, other.greatest);
+        else
+            ranges.push_back(other);
+    }
+}
+
+void set_ranges(AttributeNumbers& numbers, std::span<const ParticleArray> chosen, std::span<const ArrayRange> ranges) {
+    for (unsigned i = 0; i < numbers.shape.amounts; ++i) {
+        AttributeNumber& number = numbers.of[i];
+        if (!is_ranged(number, chosen)) continue;
+        for (const ArrayRange& range : ranges) {
+            if (range.name != chosen[number.array].name || range.component != number.component) continue;
+            const bool holds = order_of(range.least) <= order_of(number.least) &&
+                               order_of(range.greatest) >= order_of(number.greatest);
+            if (!holds || !std::isfinite(range.least) || !std::isfinite(range.greatest))
+                throw InvalidInput("the range of " + quoted(range.name) + " in the whole frame is " +
+                                   std::to_string(range.least) + " to " + std::to_string(range.greatest) +
+                                   ", but a part of it reaches from " + std::to_string(number.least) + " to " +
+                                   std::to_string(number.greatest) + ": ranges are those over all particles");
+            set_range(number, range.least, range.greatest);
+        }
+    }
 }
 
 }  // namespace meniscus

@@ -9,6 +9,7 @@
 
 #include "meniscus/device_mesh.hpp"
 #include "meniscus/mesh.hpp"
+#include "meniscus/part.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 #include "particles/attributes.hpp"
@@ -51,6 +52,9 @@ private:
 
 /// Throws InvalidInput, with its name and its particle, for a value that is not finite.
 AttributeNumbers numbers_in_host_memory(std::span<const ParticleArray> chosen);
+/// Gives the numbers of a part's particles the ranges of the whole frame, where there are some. chosen: the arrays that
+/// they are of. Throws InvalidInput for a range that is not finite, or does not hold that of the particles.
+void set_ranges(AttributeNumbers& numbers, std::span<const ParticleArray> chosen, std::span<const ArrayRange> ranges);
 /// value: the index among all of the array's values of one that is not finite. Throws InvalidInput.
 [[noreturn]] void refuse_value(const ParticleArray& array, std::uint64_t value);
 

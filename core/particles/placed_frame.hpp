@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "lattice/lattice_part.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "particles/attributes.hpp"
 
@@ -16,6 +17,7 @@ struct PlacedFrame {
 
     ParticleFrame frame;  ///< the frame, with those arrays alone that become attributes
     AttributeNumbers attributes;
+    LatticePart part;        ///< the whole, or the part of a frame that is made of these particles
     bool on_device = false;  ///< whether its spans are of device pointers, which the host must not follow
     bool is_last = false;    ///< whether no other follows, so that memory that no later step needs can be given back
 };
@@ -32,6 +34,14 @@ inline ParticlesByLevel count_levels(const ParticleFrame& frame) {
         particles[0] -= particles[level];
     }
     return particles;
+}
+
+/// A particle of level k stands for a cube of twice its radius: 8^k times that of level 0. World units cubed.
+inline double volume_of(const ParticlesByLevel& particles, const Settings& settings) {
+    std::uint64_t cubes = 0;
+    for (unsigned level = 0; level <= max_particle_level; ++level) cubes += particles[level] << (3 * level);
+    const double edge = 2.0 * settings.particle_radius;
+    return static_cast<double>(cubes) * (edge * edge * edge);
 }
 
 }  // namespace meniscus

@@ -11,6 +11,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"
+#include "meniscus/part.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 #include "meniscus/statistics.hpp"
@@ -29,6 +30,8 @@ public:
     virtual MeshDownload reconstruct(const PlacedFrame& particles, Mesh& mesh, Statistics& statistics) = 0;
     /// The surface of the last frame once more, with no cell finer than max_level (1 to 3).
     virtual void emit_capped(int max_level, Mesh& mesh) = 0;
+    /// Of the last frame, which was a part of one.
+    virtual PartOutcome part_outcome() = 0;
     /// The greatest value of the field at the points that the last frame had sampled, inside the domain; 0 without any.
     virtual float greatest_sample() = 0;
     /// As reconstruct(), but the mesh stays where it is until the next call. Of its attributes only the data are set.

@@ -21,6 +21,11 @@ public:
     bool is_adaptive() const { return state_.settings.is_adaptive; }
     void adjust_levels() { cpu::adjust_levels(state_); }
     void sample_field() { cpu::sample_field(state_, field_, wanted_level_, slivers_); }
+    void leave_other_parts() {
+        if (state_.settings.part.is_whole) return;
+        cpu::hash_borders(state_);
+        cpu::leave_other_bricks(state_);
+    }
     void sample_edge_middles() { cpu::sample_edge_middles(state_, field_); }
     void count_triangles() { cpu::count_triangles(state_, mesh_); }
     void place_vertices() { cpu::place_vertices(state_, field_, mesh_); }

@@ -1,6 +1,7 @@
 // The CPU backend: state, particles and field that live from frame to frame.
 #include "field/kernels.hpp"
 #include "neighbors/cpu/particle_field.hpp"
+#include "particles/seams.hpp"
 #include "pipeline/backend.hpp"
 #include "pipeline/cpu_pipeline.hpp"
 #include "pipeline/pipeline.hpp"
@@ -34,6 +35,7 @@ public:
     MeshDownload reconstruct(const PlacedFrame& particles, Mesh& mesh, Statistics& statistics) override {
         StageClock clock(statistics);
         state_.attributes = particles.attributes;
+        settings_.part = particles.part;
         ParticleSteps steps(state_, *field_, mesh, particles_, search_, particles);
         run_pipeline(steps, clock);
         if (keeps_lattice_) keep_lattice(state_, mesh);
@@ -59,6 +61,10 @@ public:
         emit_mesh(steps, clock);
         if (keeps_lattice_) keep_lattice(state_, mesh);
         mesh.spray.assign(particles_.spray.begin(), particles_.spray.end());
+    }
+
+    PartOutcome part_outcome() override {
+        return {seams_of(settings_.part, state_.grid.keys, state_.border_hashes), state_.sixfold_volume, 0.0F};
     }
 
     float greatest_sample() override { return cpu::greatest_sample(state_); }

@@ -12,7 +12,8 @@
 //   sample       sample_base
 //   split        collect_base_vertices, find_band, measure_band, choose_levels, list_level_sets
 //   adjust       balance_and_promote                                        (cooperative)
-//   sample       list_corner_points, sample_list, settle_band               (cooperative); list_edge_middles, ...
+//   sample       list_corner_points, sample_list, settle_band               (cooperative); of a part of
+//                a frame hash_each_border (behind list_edge_middles, ...)
 //   count        list_band, count_cells, count_cracks, scan, order_by_level_and_brick
 //   place        count_vertices, scan, require_room, place_listed; place_group for each group of attributes' numbers
 //   emit, fill   emit_cells, fill_listed, add_volumes; keep_bricks
@@ -34,6 +35,7 @@
 #include "engine/cuda/device_turn.hpp"
 #include "engine/growth.hpp"
 #include "engine/index_limit.hpp"
+#include "particles/seams.hpp"
 #include "pipeline/cuda_pipeline.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/stage_clock.hpp"
@@ -72,11 +74,13 @@ void FrameRun::run(const PlacedFrame& placed) {
     std::uint64_t payload_bytes = 0;
     for (const ParticleArray& array : particles.arrays) payload_bytes += array.data.size();
     const FrameParts parts{!particles.levels.empty(), payload_bytes != 0};
-    if (parts != parts_) {
+    // Graphs hold the settings.
+    if (parts != parts_ || !(placed.part == state_.settings.part)) {
         drop_graphs();
         settled_ = false;  // other kernels run first, then are captured
     }
     parts_ = parts;
+    state_.settings.part = placed.part;
     particles_ = particles.count();
     // A frame without particles may lack the arrays that the next one brings again.
     const AttributeShape shape = particles_ == 0 ? state_.attributes : placed.attributes.shape;
@@ -218,6 +222,21 @@ AttributeNumbers FrameRun::find_numbers(const ParticleFrame& on_device) {
     return particle_check_->find_numbers(on_device);
 }
 
+std::vector<Seam> FrameRun::seams() {
+    const auto bricks = static_cast<std::size_t>(needed(Resource::bricks));
+    std::vector<std::uint64_t> keys(bricks);
+    std::vector<WordHash> hashes(bricks * neighbor_slots);
+    const auto fetch = [&](auto& to, const auto* from) {
+        if (bricks != 0)
+            check(cudaMemcpyAsync(to.data(), from, to.size() * sizeof(*from), cudaMemcpyDeviceToHost, stream_.get()),
+                  "cudaMemcpyAsync");
+    };
+    fetch(keys, state_.brick_keys);
+    fetch(hashes, state_.border_hashes);
+    stream_.synchronize();
+    return seams_of(state_.settings.part, keys, hashes);
+}
+
 float FrameRun::greatest_sample() {
     find_greatest_sample(state_, launcher_);
     fetch_counts();
@@ -260,12 +279,14 @@ void FrameRun::drop_graphs() {
 bool FrameRun::make_room(const Needed& needed, std::uint64_t payload_bytes, const AttributeShape& attributes) {
     const Capacities before = state_.capacity;
     const bool more_payload = payload_bytes > state_.payload_bytes;
-    const bool other_attributes = attributes != state_.attributes;
-    if (!state_.capacity.grow_to(particles_, needed) && !more_payload && !other_attributes) return false;
+    const bool has_borders = !state_.settings.part.is_whole;
+    const bool other_arrays = attributes != state_.attributes || has_borders != has_borders_;
+    if (!state_.capacity.grow_to(particles_, needed) && !more_payload && !other_arrays) return false;
     state_.attributes = attributes;
+    has_borders_ = has_borders;
     sets_.forget_refusal();
     drop_graphs();
-    if (state_.capacity.same_but_for_mesh(before) && !more_payload && !other_attributes) return true;
+    if (state_.capacity.same_but_for_mesh(before) && !more_payload && !other_arrays) return true;
     if (more_payload) state_.payload_bytes = with_room_to_grow(payload_bytes);
     const Capacities& room = state_.capacity;
     const std::uint64_t sums =

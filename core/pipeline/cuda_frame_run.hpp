@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/cuda/array_memory.hpp"
 #include "engine/cuda/event_clock.hpp"
@@ -26,6 +27,7 @@
 #include "engine/cuda/upload.hpp"
 #include "engine/cuda/upload_areas.hpp"
 #include "meniscus/backend_options.hpp"
+#include "meniscus/part.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "particles/placed_frame.hpp"
 #include "pipeline/cuda_mesh_sets.hpp"
@@ -53,6 +55,9 @@ public:
 
     /// The places of the last frame's spray, where the settings want it listed; waits for the copy.
     void copy_spray(Array<Point>& spray);
+
+    /// The seams of the last frame, which was a part of one; waits for them.
+    std::vector<Seam> seams();
 
     /// The greatest sample of the last frame, see BackendReconstruction; waits for it.
     float greatest_sample();
@@ -117,6 +122,7 @@ private:
     std::array<CapturedRun, 2> graphs_;  ///< a graph for each set of mesh arrays
     std::uint64_t particles_ = 0;        ///< number of particles of the last frame
     bool settled_ = false;               ///< whether the last frame needed no more room
+    bool has_borders_ = false;           ///< whether the arrays of a part's borders have room
     FrameParts parts_;                   ///< parts of the last frame
 };
 

@@ -10,7 +10,7 @@ namespace meniscus::cuda {
 namespace {
 
 /// The meaning of packed bytes depends on the ranges of their attributes.
-void add_forms(const std::vector<CodedAttribute>& forms, PackedHash& hash) {
+void add_forms(const std::vector<CodedAttribute>& forms, WordHash& hash) {
     // Behind all words that a brick may have.
     std::uint64_t index = std::uint64_t{1} << 32;
     for (const CodedAttribute& form : forms) {
@@ -97,8 +97,8 @@ void DevicePackedBricks::pack(const MeshOnDevice& from, const Mesh& mesh, const 
     }
     hash_packed_bricks(memory_->places, count, out, memory_->hashes, storage_->launch);
     // In the place of the other table, which has gone by then.
-    auto* const hashes = memory_->table<PackedHash>();
-    check(cudaMemcpyAsync(hashes, memory_->hashes, count * sizeof(PackedHash), cudaMemcpyDeviceToHost, stream),
+    auto* const hashes = memory_->table<WordHash>();
+    check(cudaMemcpyAsync(hashes, memory_->hashes, count * sizeof(WordHash), cudaMemcpyDeviceToHost, stream),
           "cudaMemcpyAsync");
     storage_->stream.synchronize();
     memory_->require_whole_guards();

@@ -59,7 +59,7 @@ private:
         std::size_t bytes = 0;
         std::array<std::int32_t, 3> coordinate{};
         std::uint32_t vertices = 0, triangles = 0;
-        PackedHash hash{};
+        WordHash hash{};
         bool is_left = false;
         bool is_here = false;
     };

@@ -34,7 +34,7 @@ public:
     // On the device:
     AttributeExtremes* extremes = nullptr;  ///< one for each attribute
     PackedPlace* places = nullptr;          ///< one for each brick, as are hashes
-    PackedHash* hashes = nullptr;
+    WordHash* hashes = nullptr;
     std::uint64_t* words = nullptr;
 
     /// Makes room for bricks with this number of words in all; what was there is lost if it moves. Throws
@@ -47,7 +47,7 @@ public:
             on_device_.assign(arrays());
         }
         on_device_.poison(arrays());
-        tables_.reserve(std::max({bricks * sizeof(PackedPlace), bricks * sizeof(PackedHash),
+        tables_.reserve(std::max({bricks * sizeof(PackedPlace), bricks * sizeof(WordHash),
                                   max_particle_arrays * sizeof(AttributeExtremes)}));
         packed_.reserve(words_of_all * sizeof(std::uint64_t));
     }

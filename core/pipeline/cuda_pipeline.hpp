@@ -18,6 +18,9 @@ public:
     bool is_adaptive() const { return state_.settings.is_adaptive; }
     void adjust_levels() { cuda::adjust_levels(state_, launch_); }
     void sample_field() { cuda::sample_field<slivers>(state_, field_, launch_); }
+    void leave_other_parts() {
+        if (!state_.settings.part.is_whole) cuda::hash_borders(state_, launch_);
+    }
     void sample_edge_middles() { cuda::sample_edge_middles(state_, field_, launch_); }
     void count_triangles() { cuda::count_triangles(state_, launch_); }
     void place_vertices() { cuda::place_vertices(state_, field_, launch_); }

@@ -80,6 +80,11 @@ public:
 
     std::shared_ptr<FrameSender> sender() override { return areas_; }
 
+    PartOutcome part_outcome() override {
+        const CurrentDevice current(device_);
+        return {run_.seams(), run_.counts().sixfold_volume, 0.0F};
+    }
+
     float greatest_sample() override {
         const CurrentDevice current(device_);
         return run_.greatest_sample();

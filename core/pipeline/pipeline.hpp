@@ -22,8 +22,9 @@ void emit_mesh(Steps& steps, Clock& clock) {
     steps.fill_cracks();
 }
 
-/// A frame's whole way. Step 2 asks for the field at base vertices, which are part of step 4's samples. The volume is
-/// that of the whole mesh, whatever levels are emitted later; its time counts as the last stage's.
+/// A frame's whole way. Of a part of a frame, the cells of other parts have had their effect once the field is sampled.
+/// Step 2 asks for the field at base vertices, which are part of step 4's samples. The volume is that of the whole
+/// mesh, whatever levels are emitted later; its time counts as the last stage's.
 template <class Steps, class Clock>
 void run_pipeline(Steps& steps, Clock& clock) {
     clock.enter(Stage::register_particles);
@@ -37,6 +38,7 @@ void run_pipeline(Steps& steps, Clock& clock) {
     clock.enter(Stage::sample_field);
     steps.sample_field();
     if (steps.is_adaptive()) steps.sample_edge_middles();
+    steps.leave_other_parts();
     emit_mesh(steps, clock);
     steps.measure_volume();
 }

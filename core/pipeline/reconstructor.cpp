@@ -23,6 +23,7 @@
 #include "meniscus/memory.hpp"
 #include "particles/attribute_choice.hpp"
 #include "particles/placed_frame.hpp"
+#include "particles/seams.hpp"
 #include "particles/validation.hpp"
 #include "particles/warnings.hpp"
 #include "pipeline/backend.hpp"
@@ -30,14 +31,6 @@
 
 namespace meniscus {
 namespace {
-
-/// A particle of level k stands for a cube of twice its radius: 8^k times that of level 0. World units cubed.
-double volume_of(const ParticlesByLevel& particles, const Settings& settings) {
-    std::uint64_t cubes = 0;
-    for (unsigned level = 0; level <= max_particle_level; ++level) cubes += particles[level] << (3 * level);
-    const double edge = 2.0 * settings.particle_radius;
-    return static_cast<double>(cubes) * (edge * edge * edge);
-}
 
 /// A frame whose arrays are device pointers.
 ParticleFrame frame_on_device(const DeviceParticleFrame& particles) {
@@ -114,6 +107,28 @@ public:
             download(particles, mesh);
         });
         release_memory();
+    }
+
+    PartOutcome reconstruct_part(const ParticleFrame& frame, const FramePart& part, Mesh& mesh) {
+        validate(part);
+        mesh.clear();
+        ValidFrame valid = begin(frame);
+        valid.particles.part = lattice_part(part);
+        set_ranges(valid.particles.attributes, valid.attributes, part.ranges);
+        adopt(mesh);
+        PartOutcome outcome;
+        try {
+            measure(valid, [&] {
+                download(valid.particles, mesh);
+                outcome = backend_->part_outcome();
+                if (mesh.triangles.empty()) outcome.greatest_sample = backend_->greatest_sample();
+                count(mesh.vertices.size(), mesh.triangles.size(), mesh.levels);
+            });
+        } catch (...) {
+            mesh = {};
+            throw;
+        }
+        return outcome;
     }
 
     template <class Frame>
@@ -383,6 +398,9 @@ void Reconstructor::reconstruct(const ParticleFrame& frame, Mesh& mesh) {
 }
 MeshDownload Reconstructor::reconstruct_for_download(const ParticleFrame& frame, Mesh& mesh) {
     return impl_->reconstruct_for_download(frame, mesh);
+}
+PartOutcome Reconstructor::reconstruct_part(const ParticleFrame& frame, const FramePart& part, Mesh& mesh) {
+    return impl_->reconstruct_part(frame, part, mesh);
 }
 FrameUpload Reconstructor::send_ahead(const ParticleFrame& frame) noexcept {
     return impl_->send_ahead(frame);

@@ -62,6 +62,11 @@ void sample_wanted_points(State& state, FieldSource& field, Wanted wanted);
 void sample_field(State& state, FieldSource& field, const WantedLevel& wanted_level, Slivers slivers = Slivers::raised);
 /// Samples the middles of coarse edges that cross the surface.
 void sample_edge_middles(State& state, FieldSource& field);
+/// Of a settled part of a frame: fills State::border_hashes.
+void hash_borders(State& state);
+/// Takes the bricks that are not the part's own out of the level sets, so that nothing is made of their cells. Their
+/// blocks keep their levels, which the cells beside them look at.
+void leave_other_bricks(State& state);
 /// The greatest value of all points that were sampled, inside the domain.
 float greatest_sample(State& state);
 

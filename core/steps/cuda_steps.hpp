@@ -53,6 +53,9 @@ void sample_field(const State& state, const Field& field, const Launcher& launch
 /// Samples the middles of coarse edges that cross the surface.
 template <class Field>
 void sample_edge_middles(const State& state, const Field& field, const Launcher& launch);
+/// Of a settled part of a frame: fills State::border_hashes. From here on, nothing is made of cells in bricks that are
+/// not the part's own.
+void hash_borders(const State& state, const Launcher& launch);
 /// Puts the greatest value of all points that were sampled, inside the domain, into Counts::greatest_sample, which must
 /// be 0.
 void find_greatest_sample(const State& state, const Launcher& launch);

@@ -9,12 +9,12 @@
 
 namespace meniscus::c {
 
-/// Throws InvalidInput for NULL.
+/// Throws InvalidInput for NULL, and as bricks_between() does.
 inline BrickBox brick_box(const std::int32_t* lowest, const std::int32_t* highest) {
-    BrickBox box;
-    std::copy_n(&required(lowest, "lowest"), 3, box.lowest.begin());
-    std::copy_n(&required(highest, "highest"), 3, box.highest.begin());
-    return box;
+    BrickCoordinate first{}, last{};
+    std::copy_n(&required(lowest, "lowest"), first.size(), first.begin());
+    std::copy_n(&required(highest, "highest"), last.size(), last.begin());
+    return bricks_between(first, last);
 }
 
 }  // namespace meniscus::c

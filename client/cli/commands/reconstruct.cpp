@@ -25,6 +25,7 @@
 #include "cli/surfaces/surfaces.hpp"
 #include "formats/bytes/standard_streams.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/parts.hpp"
 #include "meniscus/reconstructor.hpp"
 
 namespace meniscus::cli {
@@ -131,7 +132,8 @@ unsigned threads_of(const BackendOptions& backend) {
 }
 
 unsigned Reconstruction::jobs() const {
-    if (options_.repeat > 1) return 1;  // what is measured is not disturbed
+    if (options_.repeat > 1) return 1;          // what is measured is not disturbed
+    if (options_.surfaces.parts > 1) return 1;  // a frame in parts leaves no memory for others
     const BackendOptions& backend = options_.surfaces.backend;
     if (describe_backend(backend.backend, backend.device).backend == Backend::cuda) return 1;
     JobsInput input{.frames = plan_.frames.size(), .threads = threads_of(backend)};
@@ -225,6 +227,13 @@ void add_place(CLI::App& command, ReconstructOptions& options) {
     }
     options.surfaces.add_to(command);
     const OptionGroup group(command, place_heading);
+    command
+        .add_option("--parts", options.surfaces.parts,
+                    "Parts that each frame is reconstructed in, one after the other, for frames that memory does not "
+                    "hold as a whole; meshes do not depend on it")
+        ->check(CLI::Range(std::size_t{1}, max_parts))
+        ->capture_default_str()
+        ->excludes(command.get_option("--server"));
     command
         .add_option("--jobs", options.jobs,
                     "Frames of a sequence that are reconstructed at a time, which share the threads; meshes do not "

@@ -12,6 +12,7 @@
 #include "cli/options/option_group.hpp"
 #include "cli/options/policy_options.hpp"
 #include "cli/surfaces/local_surfaces.hpp"
+#include "cli/surfaces/parts_surfaces.hpp"
 #include "cli/surfaces/server_surfaces.hpp"
 #include "formats/recordings/brick_file.hpp"
 #include "meniscus/error.hpp"
@@ -92,8 +93,10 @@ std::unique_ptr<Surfaces> SurfacesOptions::open(const Settings& settings, Surfac
         const Codec of_files = codec.value_or(Codec::lattice_entropy);
         BackendOptions here = backend;
         here.keep_lattice = bricks && needs_lattice(of_files);
-        return std::make_unique<LocalSurfaces>(settings, here, stream.normals_by, normal_bits, attribute_bits, of_files,
-                                               only_one, std::move(handler));
+        const LocalCoding coding{stream.normals_by, normal_bits, attribute_bits, of_files};
+        if (parts > 1)
+            return std::make_unique<PartsSurfaces>(settings, here, parts, coding, bricks, std::move(handler));
+        return std::make_unique<LocalSurfaces>(settings, here, coding, only_one, std::move(handler));
     }
     client::StreamOptions options = stream;
     if (normal_bits) options.normal_bits = *normal_bits;

@@ -81,7 +81,7 @@ ReceivedFrame encode_own(const Mesh& mesh, const Statistics& statistics, std::ui
     if (mesh.lattice.bricks.size() != mesh.bricks.size())
         throw InvalidInput("frame " + std::to_string(index) +
                            ": the mesh has no lattice, of which its bricks are made: reconstruct it with keep_lattice");
-    SurfacePart part = own == BrickBox() ? whole_of(mesh, statistics) : part_of(mesh, statistics, own);
+    SurfacePart part = own == all_bricks ? whole_of(mesh, statistics) : part_of(mesh, statistics, own);
     options.attributes = coded_attributes(mesh, part.ranges, wishes);
     return encode_part(mesh, std::move(part), index, simulation_time, std::move(options));
 }

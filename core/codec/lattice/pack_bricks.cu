@@ -258,11 +258,11 @@ __global__ void __launch_bounds__(block_threads, 4)
 
 /// One thread block for every brick.
 __global__ void __launch_bounds__(block_threads)
-    sum_words(const PackedPlace* places, std::uint32_t count, const std::byte* all, PackedHash* hashes) {
-    __shared__ PackedHash of_warps[block_warps];
+    sum_words(const PackedPlace* places, std::uint32_t count, const std::byte* all, WordHash* hashes) {
+    __shared__ WordHash of_warps[block_warps];
     for (std::uint32_t p = blockIdx.x; p < count; p += gridDim.x) {
         const auto* const words = reinterpret_cast<const std::uint64_t*>(all + places[p].at);
-        PackedHash hash{};
+        WordHash hash{};
         for (std::uint32_t i = threadIdx.x; i < places[p].words; i += block_threads) hash.add(words[i], i);
         for (std::uint64_t& sum : hash.of)
             for (unsigned distance = warp_threads / 2; distance > 0; distance /= 2)
@@ -271,7 +271,7 @@ __global__ void __launch_bounds__(block_threads)
         __syncthreads();
         if (threadIdx.x < 2) {
             std::uint64_t sum = 0;
-            for (const PackedHash& of_warp : of_warps) sum += of_warp.of[threadIdx.x];
+            for (const WordHash& of_warp : of_warps) sum += of_warp.of[threadIdx.x];
             hashes[p].of[threadIdx.x] = sum;
         }
         // The next brick's sums take the place of these.
@@ -302,7 +302,7 @@ void pack_attribute(const LatticeOnDevice& mesh, const PackedForm& form, const A
                 count, out);
 }
 
-void hash_packed_bricks(const PackedPlace* places, std::uint32_t count, const std::byte* bytes, PackedHash* hashes,
+void hash_packed_bricks(const PackedPlace* places, std::uint32_t count, const std::byte* bytes, WordHash* hashes,
                         const Launcher& launch) {
     launch(count, 1, sum_words, places, count, bytes, hashes);
 }

@@ -6,9 +6,9 @@
 
 #include "codec/attribute_values.hpp"
 #include "codec/lattice/packed_fields.hpp"
-#include "codec/lattice/packed_hash.hpp"
 #include "engine/cuda/kept_lattice.hpp"
 #include "engine/cuda/launch.hpp"
+#include "lattice/word_hash.hpp"
 #include "meniscus/attribute_coding.hpp"
 #include "meniscus/element_type.hpp"
 #include "meniscus/mesh.hpp"
@@ -69,7 +69,7 @@ void pack_attribute(const LatticeOnDevice& mesh, const PackedForm& form, const A
                     std::uint32_t bytes_before, const PackedPlace* places, std::uint32_t count, std::byte* out,
                     const Launcher& launch);
 /// The hash of each brick's words.
-void hash_packed_bricks(const PackedPlace* places, std::uint32_t count, const std::byte* bytes, PackedHash* hashes,
+void hash_packed_bricks(const PackedPlace* places, std::uint32_t count, const std::byte* bytes, WordHash* hashes,
                         const Launcher& launch);
 
 }  // namespace meniscus::cuda

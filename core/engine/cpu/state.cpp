@@ -11,6 +11,8 @@ State::State(const std::shared_ptr<MemoryAccount>& account, Workers& own_workers
     for_each_set(charge_named);
     charge(samples);
     charge(slots);
+    charge(raise_times);
+    charge(border_hashes);
     charge(mixed_cells);
     charge(is_cracked);
     charge(brick_triangles);
@@ -30,6 +32,7 @@ void State::release_samples() {
     release(particle_counts);
     release(reaches);
     release(bends);
+    release(raise_times);
 }
 
 }  // namespace meniscus::cpu

@@ -10,7 +10,9 @@
 #include "engine/cpu/workers.hpp"
 #include "field/lattice_settings.hpp"
 #include "lattice/level_sets.hpp"
+#include "lattice/raise_times.hpp"
 #include "lattice/sign_sets.hpp"
+#include "lattice/word_hash.hpp"
 #include "meniscus/mesh.hpp"
 #include "particles/attributes.hpp"
 
@@ -45,7 +47,10 @@ struct State : BlockState<Array> {
     Array<std::uint64_t> chosen;                               ///< cells that a pass chooses for the next one
     std::array<Array<std::uint64_t>, all_rules.size()> stale;  ///< stale cells by rule
     std::array<Array<std::uint64_t>, 2> asked_beside;          ///< cells that ask level 2 and 3 of their face neighbors
-    AttributeNumbers attributes;  ///< numbers of the frame, set before its particles are registered
+    SettlingTime now;                                          ///< the moment at which the band settles
+    Array<RaiseTimes> raise_times;  ///< of every block where the frame is a part of one; else empty
+    Array<WordHash> border_hashes;  ///< of every brick towards each of its neighbor slots, as raise_times
+    AttributeNumbers attributes;    ///< numbers of the frame, set before its particles are registered
     std::uint64_t vertices_without_particles = 0;
     std::uint64_t field_evaluations = 0;
     std::uint64_t sixfold_volume = 0;  ///< six times the volume of the mesh, see steps/fill_cracks/volume.hpp

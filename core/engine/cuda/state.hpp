@@ -15,7 +15,9 @@
 #include "field/lattice_settings.hpp"
 #include "lattice/blocks.hpp"
 #include "lattice/level_sets.hpp"
+#include "lattice/raise_times.hpp"
 #include "lattice/tables/tables.hpp"
+#include "lattice/word_hash.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/surface_lattice.hpp"
 #include "particles/attributes.hpp"
@@ -192,6 +194,10 @@ struct State : BlockState<Pointer> {
     std::uint32_t* band_cells = nullptr;
     std::uint32_t* cracked_cells = nullptr;
 
+    // Only where the frame is a part of one:
+    RaiseTimes* raise_times = nullptr;  ///< of every block
+    WordHash* border_hashes = nullptr;  ///< of every brick of base cells, towards each of its neighbor slots
+
     // The mesh, in memory of its own: that of a frame before may be on its way to the host, from the other set of these
     // arrays.
     MeshBrick* mesh_bricks = nullptr;  ///< an element for every brick of base cells
@@ -253,6 +259,8 @@ struct State : BlockState<Pointer> {
         take("band_cells", band_cells, blocks);
         take("cracked_cells", cracked_cells, blocks);
         take("samples", samples, capacity[Resource::samples]);
+        take("raise_times", raise_times, settings.part.is_whole ? 0 : blocks);
+        take("border_hashes", border_hashes, settings.part.is_whole ? 0 : brick_count * neighbor_slots);
     }
     template <class Take>
     void for_each_mesh_array(Take& take) {

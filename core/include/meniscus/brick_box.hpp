@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "meniscus/attribute_coding.hpp"
@@ -13,23 +12,31 @@
 
 namespace meniscus {
 
-/// Bricks from the lowest to the highest, both of them among these; by itself all bricks. The brick (x, y, z) covers
-/// the world from (x, y, z) to (x + 1, y + 1, z + 1) times its edge, which is brick_cells * world_cell_size(settings).
-struct BrickBox {
-    std::array<std::int32_t, 3> lowest{std::numeric_limits<std::int32_t>::min(),
-                                       std::numeric_limits<std::int32_t>::min(),
-                                       std::numeric_limits<std::int32_t>::min()};
-    std::array<std::int32_t, 3> highest{std::numeric_limits<std::int32_t>::max(),
-                                        std::numeric_limits<std::int32_t>::max(),
-                                        std::numeric_limits<std::int32_t>::max()};
+/// x y z in bricks. The brick (x, y, z) covers the world from (x, y, z) to (x + 1, y + 1, z + 1) times its edge, which
+/// is brick_cells * world_cell_size(settings).
+using BrickCoordinate = std::array<std::int32_t, 3>;
 
-    bool contains(const std::array<std::int32_t, 3>& brick) const {
+/// The bricks from `low` to below `high`.
+struct BrickBox {
+    BrickCoordinate low{};
+    BrickCoordinate high{};
+
+    bool holds(const BrickCoordinate& brick) const {
         for (std::size_t axis = 0; axis < 3; ++axis)
-            if (brick[axis] < lowest[axis] || brick[axis] > highest[axis]) return false;
+            if (brick[axis] < low[axis] || brick[axis] >= high[axis]) return false;
         return true;
     }
     bool operator==(const BrickBox&) const = default;
 };
+
+/// Bricks have coordinates from -brick_end to below brick_end on each axis: that is all the space that a cell size can
+/// address.
+inline constexpr std::int32_t brick_end = 1 << 16;
+inline constexpr BrickBox all_bricks{{-brick_end, -brick_end, -brick_end}, {brick_end, brick_end, brick_end}};
+
+/// Those from the lowest to the highest, both of them among these; any numbers. Throws InvalidInput where the lowest is
+/// beyond the highest.
+BrickBox bricks_between(const BrickCoordinate& lowest, const BrickCoordinate& highest);
 
 /// How far around its box a process needs particles so that the bricks in it are those of the whole frame, radii of the
 /// coarsest particles (core/README.md#parts-of-a-frame): margin(), and in Mode::adaptive base cells beyond, as a level
@@ -49,8 +56,7 @@ struct SurfacePart {
     Statistics statistics;
 };
 
-/// mesh: closed, in the order of a reconstruction; right in the box and, for the volume, just around it. Throws
-/// InvalidInput for a box whose lowest brick is beyond its highest.
+/// mesh: closed, in the order of a reconstruction; right in the box and, for the volume, just around it.
 SurfacePart part_of(const Mesh& mesh, const Statistics& statistics, const BrickBox& box);
 
 }  // namespace meniscus

@@ -17,6 +17,7 @@
 #include "meniscus/mesh_normals.hpp"
 #include "meniscus/names.hpp"
 #include "meniscus/packed_bricks.hpp"
+#include "meniscus/part.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/reconstructor.hpp"
 #include "meniscus/settings.hpp"

@@ -14,6 +14,7 @@
 #include "meniscus/frame_upload.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/mesh_download.hpp"
+#include "meniscus/part.hpp"
 #include "meniscus/particle_frame.hpp"
 #include "meniscus/settings.hpp"
 #include "meniscus/statistics.hpp"
@@ -42,6 +43,14 @@ public:
     /// As reconstruct() and release_memory(), at a lower peak of memory: the CPU backend gives buffers back as soon as
     /// no later step needs them. For a frame that no other follows.
     void reconstruct_last(const ParticleFrame& frame, Mesh& mesh);
+
+    /// As reconstruct(), of a part of a frame. frame: all of the whole's particles that lie within reach_of() the part,
+    /// or more. The mesh, its attributes, its spray and the statistics are those of the part's own bricks: once no seam
+    /// differs from that of the part beyond it, they are what reconstruct() gives these bricks in the whole frame, to
+    /// the bit. Vertices on a border are part of the meshes on both sides of it. A mesh is open at the border. Nothing
+    /// is warned of. A limit of work holds for the part. Also throws InvalidInput for a box that is empty or beyond
+    /// all_bricks, for an overlap and for ranges out of range.
+    PartOutcome reconstruct_part(const ParticleFrame& frame, const FramePart& part, Mesh& mesh);
 
     /// As reconstruct(), but returns once the mesh is finished in the memory in which it was made. From a GPU the
     /// download then copies it, in the caller's thread or another, while the next frame is reconstructed. Two meshes

@@ -52,9 +52,12 @@ void adjust_levels(State& state) {
     const auto promoted = [&](std::uint32_t brick, int w) {
         return take_stale(state, StaleFor::promotion, brick, w) == 0 ? 0 : cells_to_promote(levels, brick, w);
     };
-    do {
+    state.now.step = SettlingTime::adjusting;
+    for (;; ++state.now.step) {
         raise_levels(state, unbalanced, one_more);  // once suffices, see unbalanced_cells()
-    } while (raise_levels(state, promoted, one_more));
+        ++state.now.step;
+        if (!raise_levels(state, promoted, one_more)) return;
+    }
 }
 
 }  // namespace meniscus::cpu

@@ -11,6 +11,7 @@ void cap_levels(State& state, const Array<std::uint8_t>& levels, int max_level) 
         for (std::size_t b = begin; b < end; ++b) state.level[b] = std::min(levels[b], cap);
     });
     collect_level_sets(state);
+    if (!state.settings.part.is_whole) leave_other_bricks(state);
 }
 
 }  // namespace meniscus::cpu

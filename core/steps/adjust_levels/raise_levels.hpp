@@ -31,10 +31,15 @@ bool raise_levels(State& state, const Raised& raised, const NewLevel& new_level)
     });
     if (!changed.load(std::memory_order_relaxed)) return false;
     const LevelSets levels = state.level_sets();
+    const bool are_timed = !state.raise_times.empty();
     for_each_word(state, [&](std::uint32_t brick, int w) {
         const std::uint64_t cells = changes.word(brick, w);
         if (cells == 0) return;
-        raise_cells(levels, state.level.data(), brick, w, cells, new_level);
+        raise_cells(levels, state.level.data(), brick, w, cells, [&](std::uint32_t block) {
+            const int level = new_level(block);
+            if (are_timed) state.raise_times[block].note(state.level[block], level, state.now);
+            return level;
+        });
         mark_stale_around(state, brick, w, cells);
     });
     return true;

@@ -35,6 +35,7 @@ class Sweeps {
 public:
     Team team;
     Places places;
+    SettlingTime now;  ///< which all threads of the team know
 
     __device__ Sweeps(const State& state, const Team& first_team, const Places& places_of_rules)
         : team(first_team), places(places_of_rules), state_(state), levels_(state.level_sets()) {
@@ -73,8 +74,10 @@ public:
 
     /// Balance and promotion, until nothing changes.
     __device__ void adjust_levels() {
-        for (bool has_finer = true;;) {
+        now.step = SettlingTime::adjusting;
+        for (bool has_finer = true;; ++now.step) {
             if (has_finer) balance();
+            ++now.step;
             if (can_share_edges(places.words(), team.threads()))
                 promote<edge_groups>();
             else
@@ -120,11 +123,16 @@ private:
             }
         });
     }
+    /// Before the cell goes up.
+    __device__ void note(std::uint32_t block, int level) const {
+        if (!state_.settings.part.is_whole) state_.raise_times[block].note(state_.level[block], level, now);
+    }
     __device__ void raise(std::uint32_t block, int level) const {
         const CellBit cell(state_, block);
         cell.take_out_of(state_.raised);
         if (level == 0) return;
         const int before = state_.level[block];
+        note(block, level);
         for (int l = 1; l <= 3; ++l)
             if (before < l && l <= level) cell.put_into(levels_.at_least[l].words);
         state_.level[block] = static_cast<std::uint8_t>(level);
@@ -144,6 +152,7 @@ private:
             if (cells == 0) return;
             raise_cells(levels_, state_.level, brick, w, cells, [&](std::uint32_t block) {
                 if (Places::follows_raising) list(block);
+                note(block, 2);
                 return 2;
             });
         });

@@ -105,9 +105,11 @@ std::array<std::uint64_t, 3> count_band_cells(State& state) {
 void count_triangles(State& state, Mesh& mesh) {
     list_mixed_cells(state);
     resize_for_overwrite(state.is_cracked, state.mixed_cells.size());
-    const bool one_level = std::all_of(state.mixed_cells.begin(), state.mixed_cells.end(), [&](std::uint32_t b) {
-        return state.level[b] == state.level[state.mixed_cells[0]];
-    });
+    // Beside a part's own cells lie others.
+    const bool one_level = state.settings.part.is_whole &&
+                           std::all_of(state.mixed_cells.begin(), state.mixed_cells.end(), [&](std::uint32_t b) {
+                               return state.level[b] == state.level[state.mixed_cells[0]];
+                           });
     const BlocksView blocks = state.blocks();
     state.workers.for_ranges(state.mixed_cells.size(), 256, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t i = begin; i < end; ++i) {

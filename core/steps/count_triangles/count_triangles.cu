@@ -19,7 +19,8 @@ __global__ void __launch_bounds__(block_threads) list_band(const __grid_constant
     const BlocksView blocks = state.blocks();
     std::uint32_t band_cells[3] = {0, 0, 0};
     GridLoop{}.each_by_blocks(blocks.count, [&](std::uint32_t b, bool exists) {
-        const int level = exists ? blocks.level[b] : 0;
+        const bool is_own = exists && state.settings.part.owns(blocks.coordinate(b));
+        const int level = is_own ? blocks.level[b] : 0;
         for (int l = 1; l <= 3; ++l) band_cells[l - 1] += level == l ? 1 : 0;
         const std::uint32_t at =
             counter.take_places(&state.counts->listed[static_cast<int>(List::band)], level != 0 ? 1 : 0);
@@ -75,8 +76,10 @@ __global__ void __launch_bounds__(block_threads) count_cracks(const __grid_const
     __shared__ std::uint32_t all_fine[block_warps][warp_threads];
     __shared__ BlockCounter counter;
     const std::uint32_t* const of_level = state.counts->band_cells;
-    // Cells of one level have no cracks.
-    if ((of_level[0] != 0 ? 1 : 0) + (of_level[1] != 0 ? 1 : 0) + (of_level[2] != 0 ? 1 : 0) < 2) return;
+    // Cells of one level have no cracks; beside a part's own cells lie others.
+    if (state.settings.part.is_whole &&
+        (of_level[0] != 0 ? 1 : 0) + (of_level[1] != 0 ? 1 : 0) + (of_level[2] != 0 ? 1 : 0) < 2)
+        return;
     points.fill();
     __syncthreads();
     WarpSigns& signs = all_signs[warp_in_block()];

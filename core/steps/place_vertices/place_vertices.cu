@@ -20,7 +20,7 @@ __global__ void __launch_bounds__(block_threads) count_vertices(const __grid_con
         if (exists) {
             EdgeMasks edges{};
             if (state.corner_points[b] != 0) {
-                const LevelsAround around(blocks, b);
+                const LevelsAround around = LevelsAround(blocks, b).within(state.settings.part, blocks.coordinate(b));
                 for (int axis = 0; axis < 3; ++axis) edges.axis[axis] = CrossedEdges(blocks, b, around, axis).finest();
             }
             state.edges[b] = edges;

@@ -121,12 +121,10 @@ std::uint64_t mark_reached_cells(ParticleSets& sets, BrickGrid& grid) {
                                              last[3] = support;
                                          });
             }
-            const bool has_domain = sets.settings.has_domain;
-            for (int w = 0; w < Brick::words && has_domain; ++w)
-                brick.occupied[w] &=
-                    word_in_domain(brick.coordinate, w, sets.settings.domain_low, sets.settings.domain_high);
-            pairs.fetch_add(pairs_in_brick(marked, has_domain ? brick.count() : 0, has_domain),
-                            std::memory_order_relaxed);
+            const bool are_few = sets.settings.leaves_cells_out();
+            for (int w = 0; w < Brick::words && are_few; ++w)
+                brick.occupied[w] &= storable_word(sets.settings, brick.coordinate, w);
+            pairs.fetch_add(pairs_in_brick(marked, are_few ? brick.count() : 0, are_few), std::memory_order_relaxed);
         }
     });
     return pairs.load(std::memory_order_relaxed);

@@ -93,7 +93,7 @@ private:
 };
 
 /// Marks the cells that each particle reaches, by `count` lanes, which share its slices. Also adds up
-/// ReachedBox::count(): for the frame, or where a domain will leave cells out, for each brick in members_before.
+/// ReachedBox::count(): for the frame, or where cells will be left out, for each brick in members_before.
 template <unsigned count>
 __global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __grid_constant__ State state) {
     __shared__ BlockCounter counter;
@@ -132,7 +132,7 @@ __global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __g
                     if (number == no_index) continue;  // in a frame that another block has stopped
                     mark_in_brick<count>({state.bricks[number].occupied}, box, at[0], at[1], at[2], reach, lanes.own);
                     if (lanes.own != 0) continue;
-                    if (state.settings.has_domain)
+                    if (state.settings.leaves_cells_out())
                         atomicAdd(reinterpret_cast<Counter*>(&state.members_before[number]), Counter{box.count()});
                     else
                         pairs += box.count();
@@ -141,18 +141,16 @@ __global__ void __launch_bounds__(block_threads, 3) mark_reached_cells(const __g
     counter.add(&state.counts->pairs, pairs);
 }
 
-/// One warp for every brick: leaves out what lies beyond the domain, and counts the members.
+/// One warp for every brick: leaves out what lies beyond the domain and the part, and counts the members.
 __global__ void __launch_bounds__(block_threads) count_members(const __grid_constant__ State state) {
     each_by_warp(state.count(Resource::bricks), [&](std::uint32_t b) {
         Brick& brick = state.bricks[b];
-        if (state.settings.has_domain)
+        if (state.settings.leaves_cells_out())
             for (int w = static_cast<int>(lane_index()); w < Brick::words; w += warp_threads)
-                if (brick.occupied[w] != 0)
-                    brick.occupied[w] &=
-                        word_in_domain(brick.coordinate, w, state.settings.domain_low, state.settings.domain_high);
+                if (brick.occupied[w] != 0) brick.occupied[w] &= storable_word(state.settings, brick.coordinate, w);
         const std::uint32_t members = count_by_warp(brick);
         if (lane_index() != 0) return;
-        if (state.settings.has_domain)
+        if (state.settings.leaves_cells_out())
             atomicAdd(&state.counts->pairs, Counter{pairs_in_brick(state.members_before[b], members, true)});
         state.members_before[b] = members;
     });

@@ -154,6 +154,8 @@ void store_blocks(State& state) {
     for (auto* set : {&state.any_inside, &state.all_inside, &state.chosen})
         set->assign(state.grid.bricks.size() * Brick::words, 0);
     state.samples.clear();
+    state.raise_times.assign(state.settings.part.is_whole ? 0 : n, {});
+    state.now = {};
     state.field_evaluations = 0;
     state.workers.for_ranges(state.grid.bricks.size(), 4, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t b = begin; b < end; ++b) {

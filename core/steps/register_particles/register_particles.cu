@@ -264,6 +264,10 @@ void store_blocks(const State& state, const Launcher& launch) {
     if (state.settings.work_limit != 0.0) launch(1, block_threads, stop_if_base_cells_are_too_much, state);
     find_neighbor_bricks(state, launch);
     launch(Brick::words * bricks, block_warps, make_blocks, state);
+    if (!state.settings.part.is_whole)
+        check(
+            cudaMemsetAsync(state.raise_times, 0, state.capacity[Resource::blocks] * sizeof(RaiseTimes), launch.stream),
+            "cudaMemsetAsync");
 }
 
 void register_particles(State& state, bool has_payload, const Launcher& launch) {

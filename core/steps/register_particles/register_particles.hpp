@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "field/lanes.hpp"
+#include "field/lattice_settings.hpp"
 #include "lattice/brick_grid.hpp"
 #include "lattice/coordinates.hpp"
 #include "lattice/host_device.hpp"
@@ -91,9 +92,9 @@ struct ReachedRows {
 };
 
 /// Pairs of a brick's base cells and particles near them, where only `members` of its cells are stored, by the sum of
-/// ReachedBox::count(). A domain leaves cells out however near particles are.
-MENISCUS_HD inline std::uint64_t pairs_in_brick(std::uint64_t marked, std::uint32_t members, bool has_domain) {
-    return has_domain ? marked / brick_volume * members + marked % brick_volume * members / brick_volume : marked;
+/// ReachedBox::count(). are_few: LatticeSettings::leaves_cells_out().
+MENISCUS_HD inline std::uint64_t pairs_in_brick(std::uint64_t marked, std::uint32_t members, bool are_few) {
+    return are_few ? marked / brick_volume * members + marked % brick_volume * members / brick_volume : marked;
 }
 
 /// The base cells, as bits, of a row of a brick (y + 16 z) whose closed box touches the closed domain [low, high], in
@@ -115,6 +116,14 @@ MENISCUS_HD inline std::uint64_t row_in_domain(const Int3& brick, int row, const
 MENISCUS_HD inline std::uint64_t word_in_domain(const Int3& brick, int word, const Int3& low, const Int3& high) {
     std::uint64_t cells = 0;
     for (int i = 0; i < 4; ++i) cells |= row_in_domain(brick, 4 * word + i, low, high) << (brick_size * i);
+    return cells;
+}
+
+/// The base cells of a word of Brick::occupied that may be stored, as bits.
+MENISCUS_HD inline std::uint64_t storable_word(const LatticeSettings& settings, const Int3& brick, int word) {
+    std::uint64_t cells = ~std::uint64_t{0};
+    if (settings.has_domain) cells &= word_in_domain(brick, word, settings.domain_low, settings.domain_high);
+    if (!settings.part.is_whole) cells &= settings.part.stored().word(brick, word);
     return cells;
 }
 

@@ -28,7 +28,10 @@ void find_spray(ParticleSets& sets) {
     sets.spray_particles = 0;
     for (ParticleSet& set : sets.of_level) {
         const auto is_alone = [&](std::size_t i) -> std::uint64_t {
-            return is_spray(set.sums[i], sets.settings.smooth) ? 1 : 0;
+            return is_spray(set.sums[i], sets.settings.smooth) &&
+                           lies_in_own_cell(set.keys[i], set.cell_units, sets.settings.part)
+                       ? 1
+                       : 0;
         };
         const std::size_t before = sets.spray.size();
         if (sets.settings.lists_spray) sets.spray.resize(before + set.count());

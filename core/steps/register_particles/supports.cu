@@ -9,6 +9,13 @@
 namespace meniscus::cuda {
 namespace {
 
+/// Whether a particle is alone, and this part's to count.
+__device__ bool is_own_spray(const State& state, std::uint32_t i) {
+    const SortKey& key = state.keys[i];
+    return is_spray(state.sums[i], state.settings.smooth) &&
+           lies_in_own_cell(particle_key(key), state.settings.cell_units[key_level(key)], state.settings.part);
+}
+
 /// Also counts the particles alone, and marks them where they are to be listed.
 __global__ void __launch_bounds__(block_threads) fit_kernels(const __grid_constant__ State state) {
     __shared__ BlockCounter counter;
@@ -16,8 +23,9 @@ __global__ void __launch_bounds__(block_threads) fit_kernels(const __grid_consta
     Counter spray = 0;
     GridLoop{}.each(state.capacity.particles, [&](std::uint32_t i) {
         const bool is_alone = i < n && is_spray(state.sums[i], state.settings.smooth);
-        if (is_alone) ++spray;
-        if (state.settings.lists_spray) state.spray_before[i] = is_alone ? 1 : 0;
+        const bool is_counted = is_alone && is_own_spray(state, i);
+        if (is_counted) ++spray;
+        if (state.settings.lists_spray) state.spray_before[i] = is_counted ? 1 : 0;
         if (i >= n) return;
         const Poly6 kernel = is_alone && state.settings.leaves_out_spray
                                  ? Poly6::none()
@@ -30,7 +38,7 @@ __global__ void __launch_bounds__(block_threads) fit_kernels(const __grid_consta
 
 __global__ void __launch_bounds__(block_threads) list_spray(const __grid_constant__ State state) {
     GridLoop{}.each(state.particle_count(), [&](std::uint32_t i) {
-        if (!is_spray(state.sums[i], state.settings.smooth)) return;
+        if (!is_own_spray(state, i)) return;
         const unsigned level = key_level(state.keys[i]);
         state.spray[state.spray_before[i]] =
             spray_point(particle_key(state.keys[i]), state.settings.cell_units[level], state.settings.units_per_length);

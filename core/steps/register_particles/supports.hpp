@@ -5,6 +5,7 @@
 #include "field/lattice_settings.hpp"
 #include "field/poly6.hpp"
 #include "lattice/host_device.hpp"
+#include "lattice/lattice_part.hpp"
 #include "meniscus/mesh.hpp"
 #include "particles/particle_key.hpp"
 
@@ -53,6 +54,14 @@ MENISCUS_HD inline Point spray_point(const ParticleKey& key, std::int64_t cell_u
     const Units3 p = key_place(key, cell_units);
     const auto world = [&](std::int64_t v) { return static_cast<float>(static_cast<double>(v) / units_per_length); };
     return {world(p.x), world(p.y), world(p.z)};
+}
+
+/// Whether a particle lies in a base cell of the part's own: spray there is this part's to count and to list.
+MENISCUS_HD inline bool lies_in_own_cell(const ParticleKey& key, std::int64_t cell_units, const LatticePart& part) {
+    if (part.is_whole) return true;
+    const Units3 p = key_place(key, cell_units);
+    const auto cell = [](std::int64_t v) { return static_cast<std::int32_t>(floor_div(v, units_per_base_cell)); };
+    return part.owns({cell(p.x), cell(p.y), cell(p.z)});
 }
 
 }  // namespace meniscus

@@ -208,7 +208,9 @@ bool grow_band(State& state, const WantedLevel& wanted_level) {
     const SignSets signs = state.sign_sets();
     const auto joining = [&](std::uint32_t brick, int w) {
         std::uint64_t cells = take_stale(state, StaleFor::band, brick, w) & ~levels.band(brick, w);
-        if (cells != 0) cells &= levels.beside(1, brick, w) & signs.cells_seeing_both(brick, w);
+        if (cells != 0)
+            cells &= levels.beside(1, brick, w) & signs.cells_seeing_both(brick, w) &
+                     state.settings.part.settling_word(state.grid.bricks[brick].coordinate, w);
         return cells_where(state.grid.bricks[brick], w, cells, [&](std::uint32_t block) {
             return sees_both(blocks, block) && holds_at_a_face(joins_band, blocks, block);
         });
@@ -252,7 +254,10 @@ void sample_corner_points(State& state, FieldSource& field) {
 void sample_field(State& state, FieldSource& field, const WantedLevel& wanted_level, Slivers slivers) {
     for (;;) {
         sample_corner_points(state, field);
+        ++state.now.round;
+        state.now.step = SettlingTime::joining;
         const bool grown = grow_band(state, wanted_level);
+        state.now.step = SettlingTime::slivers;
         const bool raised = slivers == Slivers::raised && raise_at_slivers(state, grown);
         if (!grown && !raised) return;
         adjust_levels(state);

@@ -73,6 +73,7 @@ public:
     /// The first block does it alone where a wait of the grid would cost more than the work.
     __device__ bool raise() {
         sweeps_.team = Team::fit_for(tests(), 1);
+        ++sweeps_.now.round;
         std::uint32_t found = 0;
         if (sweeps_.team.has_this_thread()) {
             const std::uint32_t search = sweeps_.search();
@@ -108,7 +109,8 @@ private:
     /// for anew.
     __device__ void test(std::uint32_t block, const CellFace& face, bool joins) const {
         if (state_.level[block] == 0) {
-            if (!joins || !joins_band(blocks_, block, face)) return;
+            if (!joins || !joins_band(blocks_, block, face) || !state_.settings.part.settles(blocks_.coordinate(block)))
+                return;
             state_.counts->last_joining = sweeps_.search();
         } else if (slivers == Slivers::kept || !misses_surface(blocks_, block, face)) {
             return;
@@ -133,6 +135,7 @@ private:
         // All have read the last round's list.
         if (sweeps_.team.is_first_thread()) state_.counts->listed[static_cast<int>(List::later_round)] = 0;
         if (static_cast<volatile std::uint32_t&>(state_.counts->last_joining) == search) {
+            sweeps_.now.step = SettlingTime::joining;
             sweeps_.raise_found(
                 found, [&](std::uint32_t block) { return state_.level[block] == 0 ? state_.wanted_level[block] : 0; });
             stale_count_ = sweeps_.places.count();
@@ -140,6 +143,7 @@ private:
             test_stale_cells(false);
             found = sweeps_.end_search();
         }
+        sweeps_.now.step = SettlingTime::slivers;
         sweeps_.raise_found(found, [&](std::uint32_t block) { return state_.level[block] + 1; });
         sweeps_.adjust_levels();
     }

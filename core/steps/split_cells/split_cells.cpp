@@ -33,13 +33,15 @@ void find_band(State& state) {
     });
     for_each_word(state, [&](std::uint32_t brick, int w) {
         const CornerSets corners(vertices, brick, w);
+        const std::uint64_t settling = state.settings.part.settling_word(state.grid.bricks[brick].coordinate, w);
         std::uint64_t band = 0;
-        for_each_cell(state.grid.bricks[brick], w, state.grid.bricks[brick].occupied[w],
-                      [&](std::uint32_t block, int bit) {
-                          const bool in_band = corners.may_hold_surface(bit, test, state.reaches[block].bound);
-                          state.level[block] = in_band ? 1 : 0;
-                          band |= std::uint64_t{in_band} << bit;
-                      });
+        for_each_cell(
+            state.grid.bricks[brick], w, state.grid.bricks[brick].occupied[w], [&](std::uint32_t block, int bit) {
+                const bool in_band =
+                    (settling >> bit & 1) != 0 && corners.may_hold_surface(bit, test, state.reaches[block].bound);
+                state.level[block] = in_band ? 1 : 0;
+                band |= std::uint64_t{in_band} << bit;
+            });
         state.chosen_cells().word(brick, w) = band;
     });
 }

@@ -75,11 +75,14 @@ __global__ void __launch_bounds__(block_threads, 4) find_band(const __grid_const
         if (word.members == 0) return;
         const CornerSets corners =
             corner_sets_together(vertices, word.number / Brick::words, static_cast<int>(word.number % Brick::words));
+        const std::uint64_t settling = state.settings.part.settling_word(
+            state.bricks[word.number / Brick::words].coordinate, static_cast<int>(word.number % Brick::words));
         for (int half = 0; half < 2; ++half) {
             const int bit = WordOfLanes::bit(half);
             const std::uint32_t block = word.block(bit);
             const bool exists = word.holds(bit);
-            const bool in_band = exists && corners.may_hold_surface(bit, test, state.reaches[block].bound);
+            const bool in_band =
+                exists && (settling >> bit & 1) != 0 && corners.may_hold_surface(bit, test, state.reaches[block].bound);
             if (exists) state.level[block] = in_band ? 1 : 0;
             if (exists && bends) state.bends[block] = {0.0F, 0.0F, 1};
         }

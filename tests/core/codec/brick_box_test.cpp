@@ -20,24 +20,21 @@
 namespace meniscus {
 namespace {
 
-constexpr std::int32_t no_end_below = std::numeric_limits<std::int32_t>::min();
-constexpr std::int32_t no_end_above = std::numeric_limits<std::int32_t>::max();
-
 /// All of space in boxes, cut before these coordinates of each axis.
 std::vector<BrickBox> boxes_between(const std::array<std::vector<std::int32_t>, 3>& cuts) {
-    std::vector<BrickBox> boxes{{}};
+    std::vector<BrickBox> boxes{all_bricks};
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (const std::int32_t cut : cuts.at(axis)) {
             std::vector<BrickBox> next;
             for (const BrickBox& box : boxes) {
-                if (cut <= box.lowest.at(axis) || cut > box.highest.at(axis)) {
+                if (cut <= box.low.at(axis) || cut >= box.high.at(axis)) {
                     next.push_back(box);
                     continue;
                 }
                 next.push_back(box);
-                next.back().highest.at(axis) = cut - 1;
+                next.back().high.at(axis) = cut;
                 next.push_back(box);
-                next.back().lowest.at(axis) = cut;
+                next.back().low.at(axis) = cut;
             }
             boxes = std::move(next);
         }
@@ -133,12 +130,12 @@ TEST(BrickBoxes, OfWaterHaveTheVolumeThatIsInThem) {
     const Settings settings = many_bricks();
     const Surface whole = surface_of(settings, water.frame());
     const double edge = brick_cells * world_cell_size(settings);  // 0.32
-    const SurfacePart full = part_of(whole.mesh, whole.statistics, {{1, 1, 1}, {2, 1, 2}});
+    const SurfacePart full = part_of(whole.mesh, whole.statistics, {{1, 1, 1}, {3, 2, 3}});
     EXPECT_TRUE(full.bricks.empty());
     EXPECT_NEAR(full.statistics.volume, 4 * edge * edge * edge, 1e-9);
-    const SurfacePart upper = part_of(whole.mesh, whole.statistics, {{1, 1, 4}, {1, 1, 4}});
+    const SurfacePart upper = part_of(whole.mesh, whole.statistics, {{1, 1, 4}, {2, 2, 5}});
     EXPECT_NEAR(upper.statistics.volume, (1.45 + 0.025 - 4 * edge) * edge * edge, 0.1 * edge * edge * edge);
-    EXPECT_EQ(part_of(whole.mesh, whole.statistics, {{1, 1, 9}, {1, 1, 12}}).statistics.volume, 0.0);
+    EXPECT_EQ(part_of(whole.mesh, whole.statistics, {{1, 1, 9}, {2, 2, 13}}).statistics.volume, 0.0);
 }
 
 using Contents = std::map<std::array<std::int32_t, 3>, ContentHash>;
@@ -146,7 +143,7 @@ using Contents = std::map<std::array<std::int32_t, 3>, ContentHash>;
 Contents contents_of(const Mesh& mesh, const BrickBox& box) {
     Contents contents;
     for (std::size_t b = 0; b < mesh.bricks.size(); ++b)
-        if (box.contains(mesh.bricks[b].coordinate))
+        if (box.holds(mesh.bricks[b].coordinate))
             contents.emplace(mesh.bricks[b].coordinate, brick_content(mesh, b).hash());
     return contents;
 }
@@ -175,8 +172,8 @@ TEST(BrickBoxes, WithAHaloOfParticlesHaveTheBricksOfTheWhole) {
                         bool is_near = true;
                         for (std::size_t axis = 0; axis < 3; ++axis) {
                             const double at = all.positions[3 * i + axis];
-                            is_near &= at >= box.lowest.at(axis) * edge - reach &&
-                                       at <= (box.highest.at(axis) + 1.0) * edge + reach;
+                            is_near &= at >= box.low.at(axis) * edge - reach &&
+                                       at <= box.high.at(axis) * edge + reach;
                         }
                         if (is_near) mine.add(all.positions[3 * i], all.positions[3 * i + 1], all.positions[3 * i + 2]);
                     }
@@ -186,7 +183,7 @@ TEST(BrickBoxes, WithAHaloOfParticlesHaveTheBricksOfTheWhole) {
                     contents.merge(contents_of(own.mesh, box));
                 }
                 EXPECT_LT(least, all.count());
-                EXPECT_EQ(contents, contents_of(whole.mesh, {}));
+                EXPECT_EQ(contents, contents_of(whole.mesh, all_bricks));
                 sum.expect_whole(whole);
             }
 }
@@ -202,8 +199,8 @@ TEST(BrickBoxes, HaveTheRangesOfTheirOwnVertices) {
     frame.arrays = std::span(&array, 1);
     const Surface whole = surface_of(settings, frame);
     const SurfacePart lower = part_of(whole.mesh, whole.statistics,
-                                      {{no_end_below, no_end_below, no_end_below}, {no_end_above, no_end_above, 0}});
-    const SurfacePart upper = part_of(whole.mesh, whole.statistics, {{no_end_below, no_end_below, 1}});
+                                      {all_bricks.low, {brick_end, brick_end, 1}});
+    const SurfacePart upper = part_of(whole.mesh, whole.statistics, {{-brick_end, -brick_end, 1}, all_bricks.high});
     const auto all = attribute_ranges(whole.mesh);
     ASSERT_EQ(lower.ranges.size(), 1U);
     ASSERT_EQ(upper.ranges.size(), 1U);
@@ -211,20 +208,29 @@ TEST(BrickBoxes, HaveTheRangesOfTheirOwnVertices) {
     EXPECT_GT(upper.ranges[0].minimum[0], lower.ranges[0].minimum[0]);
     EXPECT_EQ(lower.ranges[0].minimum, all[0].minimum);
     EXPECT_EQ(upper.ranges[0].maximum, all[0].maximum);
-    EXPECT_TRUE(part_of(whole.mesh, whole.statistics, {{900, 0, 0}}).ranges.empty());
+    EXPECT_TRUE(part_of(whole.mesh, whole.statistics, {{900, 0, 0}, all_bricks.high}).ranges.empty());
 }
 
 TEST(BrickBoxes, MayHoldNothing) {
     const Surface none = surface_of(test::default_settings(), {});
-    const SurfacePart part = part_of(none.mesh, none.statistics, {{-1, -1, -1}, {1, 1, 1}});
+    const SurfacePart part = part_of(none.mesh, none.statistics, {{-1, -1, -1}, {2, 2, 2}});
     EXPECT_TRUE(part.bricks.empty());
     EXPECT_EQ(part.statistics.volume, 0.0);
     EXPECT_EQ(part.statistics.vertices, 0U);
 }
 
+TEST(BrickBoxes, HoldTheLowestAndTheHighest) {
+    constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
+    constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
+    EXPECT_EQ(bricks_between({-1, 0, 2}, {-1, 3, 2}), (BrickBox{{-1, 0, 2}, {0, 4, 3}}));
+    EXPECT_EQ(bricks_between({least, least, least}, {most, most, most}), all_bricks);
+    EXPECT_FALSE(bricks_between({most - 1, 0, 0}, {most, 0, 0}).holds({brick_end - 1, 0, 0}));
+    EXPECT_FALSE(bricks_between({least, 0, 0}, {least, 0, 0}).holds({-brick_end, 0, 0}));
+}
+
 TEST(BrickBoxes, AreRefusedWhereTheyEndBeforeTheyBegin) {
     EXPECT_EQ(test::refusal([] {
-                  part_of({}, {}, {{0, 2, 0}, {1, 1, 1}});
+                  bricks_between({0, 2, 0}, {1, 1, 1});
               }),
               "the box of bricks runs from (0, 2, 0) to (1, 1, 1); the lowest must not be beyond the highest");
 }

@@ -23,7 +23,7 @@ py::list list_of(const py::handle& given, std::size_t size) {
 }
 
 /// An axis with None stays as it is. Throws as list_of(), and pybind11::cast_error for a number of more bits.
-void read(const py::handle& given, std::array<std::int32_t, axes>& place) {
+void read(const py::handle& given, BrickCoordinate& place) {
     const py::list numbers = list_of(given, axes);
     for (std::size_t axis = 0; axis < axes; ++axis) {
         if (numbers[axis].is_none()) continue;
@@ -36,22 +36,24 @@ void read(const py::handle& given, std::array<std::int32_t, axes>& place) {
 }  // namespace
 
 BrickBox brick_box(const py::object& given, const char* name) {
-    BrickBox box;
-    if (given.is_none()) return box;
+    if (given.is_none()) return all_bricks;
+    constexpr auto no_end = std::numeric_limits<std::int32_t>::max();
+    BrickCoordinate lowest{-no_end, -no_end, -no_end};
+    BrickCoordinate highest{no_end, no_end, no_end};
     const auto refuse = [&] {
         throw InvalidInput(std::string(name) + " is " + std::string(py::repr(given)) +
                            ", must be (lowest, highest), each x y z: whole numbers of 32 bits, or None for no end");
     };
     try {
         const py::list ends = list_of(given, 2);
-        read(ends[0], box.lowest);
-        read(ends[1], box.highest);
+        read(ends[0], lowest);
+        read(ends[1], highest);
     } catch (const py::error_already_set&) {
         refuse();
     } catch (const py::builtin_exception&) {
         refuse();
     }
-    return box;
+    return bricks_between(lowest, highest);
 }
 
 }  // namespace meniscus::python

@@ -74,9 +74,9 @@ public:
     /// own: with `parts`, the bricks that this one publishes of a mesh that reaches farther, such as that of a rank
     /// with the particles of its neighbors within margin(settings) around these bricks. The boxes of all parts cover
     /// the surface, and no brick is in two of them; part_of() says what becomes of the statistics. Throws InvalidInput,
-    /// too, for a mesh without its lattice, and for a box whose lowest brick is beyond its highest.
+    /// too, for a mesh without its lattice.
     void push(const Mesh& mesh, const Statistics& statistics, std::uint64_t index, double simulation_time,
-              const BrickBox& own = {});
+              const BrickBox& own = all_bricks);
     /// Publishes bricks that are encoded: a whole frame, or those that this part has. Bricks carry all attributes that
     /// the frame has. With `parts`: the statistics are those of this part, a vertex on the border of two parts counts
     /// in one of them, and coded_attributes, which are the same in all parts, hold the values of the whole frame.

@@ -1,4 +1,4 @@
-// The identity of packed bytes: two sums over their words, so that a device may add in any order.
+// The identity of words in their places: two sums over them, so that a device may add in any order.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace meniscus {
 
 /// Equal for equal words in equal places; different ones have the same hash with a chance of about 2^-128. Not proof
 /// against forgery.
-struct PackedHash {
+struct WordHash {
     std::uint64_t of[2];
 
     MENISCUS_HD void add(std::uint64_t word, std::uint64_t index) {

@@ -1,11 +1,11 @@
-// The identity of packed bytes: no two of many alike contents share one of its two sums.
+// The identity of words in their places: no two of many alike contents share one of its two sums.
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <set>
 #include <vector>
 
-#include "codec/lattice/packed_hash.hpp"
+#include "lattice/word_hash.hpp"
 
 namespace meniscus {
 namespace {
@@ -16,7 +16,7 @@ using Words = std::vector<std::uint64_t>;
 class Hashes {
 public:
     void add(const Words& words) {
-        PackedHash hash{};
+        WordHash hash{};
         for (std::size_t i = 0; i < words.size(); ++i) hash.add(words[i], i);
         ++contents_;
         for (int i = 0; i < 2; ++i) sums_[i].insert(hash.of[i]);
@@ -31,9 +31,9 @@ private:
     std::size_t contents_ = 0;
 };
 
-TEST(PackedHash, DoesNotDependOnTheOrderOfTheAdditions) {
-    PackedHash forward{};
-    PackedHash backward{};
+TEST(WordHash, DoesNotDependOnTheOrderOfTheAdditions) {
+    WordHash forward{};
+    WordHash backward{};
     for (std::uint64_t i = 0; i < 100; ++i) forward.add(i * i, i);
     for (std::uint64_t i = 100; i-- > 0;) backward.add(i * i, i);
     EXPECT_EQ(forward.of[0], backward.of[0]);
@@ -41,7 +41,7 @@ TEST(PackedHash, DoesNotDependOnTheOrderOfTheAdditions) {
     EXPECT_NE(forward.of[0], forward.of[1]);
 }
 
-TEST(PackedHash, TellsSmallWordsInAnyPlacesApart) {
+TEST(WordHash, TellsSmallWordsInAnyPlacesApart) {
     Hashes hashes;
     for (std::uint64_t a = 0; a < 50; ++a)
         for (std::uint64_t b = 0; b < 50; ++b)
@@ -49,7 +49,7 @@ TEST(PackedHash, TellsSmallWordsInAnyPlacesApart) {
     hashes.expect_all_different();
 }
 
-TEST(PackedHash, TellsTwoFlippedBitsApart) {
+TEST(WordHash, TellsTwoFlippedBitsApart) {
     Hashes hashes;
     constexpr std::size_t bits = 8 * 64;
     const auto flipped = [](std::size_t first, std::size_t second) {
@@ -63,7 +63,7 @@ TEST(PackedHash, TellsTwoFlippedBitsApart) {
     hashes.expect_all_different();
 }
 
-TEST(PackedHash, TellsOneWordInEachPlaceApart) {
+TEST(WordHash, TellsOneWordInEachPlaceApart) {
     Hashes hashes;
     for (std::size_t place = 0; place < 500; ++place)
         for (const std::uint64_t word : {std::uint64_t{1}, ~std::uint64_t{0}}) {
@@ -74,7 +74,7 @@ TEST(PackedHash, TellsOneWordInEachPlaceApart) {
     hashes.expect_all_different();
 }
 
-TEST(PackedHash, TellsLengthsOfZerosApart) {
+TEST(WordHash, TellsLengthsOfZerosApart) {
     Hashes hashes;
     for (std::size_t length = 0; length < 2000; ++length) hashes.add(Words(length, 0));
     hashes.expect_all_different();

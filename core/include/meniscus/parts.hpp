@@ -1,0 +1,112 @@
+// A frame reconstructed in parts, one after the other in each process that takes part, and compared at their seams.
+// (core/README.md#parts-that-are-put-together)
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "meniscus/backend_options.hpp"
+#include "meniscus/mesh.hpp"
+#include "meniscus/part.hpp"
+#include "meniscus/particle_frame.hpp"
+#include "meniscus/settings.hpp"
+#include "meniscus/statistics.hpp"
+
+namespace meniscus {
+
+/// A brick, and the number of particles in it.
+struct BrickLoad {
+    BrickCoordinate brick{};
+    std::uint64_t particles = 0;
+    bool operator==(const BrickLoad&) const = default;
+};
+/// The bricks that hold particles of a valid frame, by (z, y, x).
+std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& settings);
+
+/// Deals all bricks to parts: boxes that fill space, made by cutting boxes in two between bricks. Each cut is where the
+/// side with more to do for each of its parts has least: its particles, and half of those in the layer of bricks beyond
+/// the cut, of which it needs some. The same for the same loads, in whatever order. parts: 1 to max_parts; there are
+/// fewer boxes where a brick would have several.
+std::vector<BrickBox> deal_bricks(std::vector<BrickLoad> loads, std::size_t parts);
+inline constexpr std::size_t max_parts = 65536;
+
+/// What the processes that make one surface tell each other. All of them call the same functions in the same order.
+class PartExchange {
+public:
+    using Bytes = std::vector<std::byte>;
+
+    virtual ~PartExchange() = default;
+    virtual std::size_t rank() const = 0;   ///< number of this process, from 0
+    virtual std::size_t ranks() const = 0;  ///< number of processes
+    /// The bytes of all, by rank: small things.
+    virtual std::vector<Bytes> gather(Bytes mine) = 0;
+    /// to: what each rank shall get, by rank. Returns what each rank has sent to this one: particles.
+    virtual std::vector<Bytes> all_to_all(std::vector<Bytes> to) = 0;
+};
+/// The exchange of a process by itself.
+class AloneExchange final : public PartExchange {
+public:
+    std::size_t rank() const override { return 0; }
+    std::size_t ranks() const override { return 1; }
+    std::vector<Bytes> gather(Bytes mine) override;
+    std::vector<Bytes> all_to_all(std::vector<Bytes> to) override { return to; }
+};
+
+struct PartsOptions {
+    std::size_t parts = 1;                    ///< of all processes together, 1 to max_parts
+    std::uint32_t overlap = default_overlap;  ///< of a part that is made the first time, base cells
+};
+
+/// A part that has been made. It is made once more if a seam of it differs from that of the part beyond, and then takes
+/// the place of what it was.
+struct FinishedPart {
+    std::size_t number;  ///< from 0, among all parts
+    const FramePart& part;
+    const Mesh& mesh;
+    const Statistics& statistics;
+};
+using PartSink = std::function<void(const FinishedPart&)>;
+
+/// Figures of a frame in parts, over all processes, of parts as they were made last.
+struct PartsReport {
+    /// Of the whole frame. Evaluations and times are sums over the parts: what two of them sample, both count, as they
+    /// do a border's vertices without particles. Memory is this process's. Warnings are there where one process takes
+    /// part.
+    Statistics whole;
+    std::uint64_t particles_received = 0;  ///< of all parts: each gets those around it, too
+    std::uint64_t parts_made = 0;          ///< those that were made once more counted again
+    std::uint64_t unequal_seams = 0;       ///< seams that differed, all rounds together
+    std::uint32_t greatest_overlap = 0;    ///< base cells
+};
+
+/// Reconstructs frames in parts; one in each process of an exchange, each with the same settings and options. A process
+/// makes its parts in turn: the parts are dealt to processes by their numbers.
+class PartsReconstructor {
+public:
+    /// exchange: must stay. Throws InvalidInput as Reconstructor does, and for a number of parts or an overlap out of
+    /// range.
+    PartsReconstructor(const Settings& settings, const BackendOptions& backend, const PartsOptions& options,
+                       PartExchange& exchange);
+    ~PartsReconstructor();
+
+    /// mine: the particles of this process, each once among all processes, wherever they are. sink: gets this process's
+    /// parts. Throws as Reconstructor::reconstruct_part(), and InvalidInput where the processes' frames differ in their
+    /// encoding; other processes then wait for this one until the exchange ends them.
+    PartsReport reconstruct(const ParticleFrame& mine, const PartSink& sink);
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// The mesh of the whole frame of the meshes of all its parts, in the order of vertices and triangles that
+/// Reconstructor::reconstruct() gives, and with what it has but the lattice. Throws InvalidInput for meshes of
+/// different lattices or with different attributes, and LimitExceeded for more vertices or triangles than can be
+/// numbered.
+Mesh put_together(std::span<const Mesh> parts);
+
+}  // namespace meniscus

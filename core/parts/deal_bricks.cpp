@@ -1,0 +1,133 @@
+// Boxes of bricks for parts, by recursive bisection.
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "lattice/brick_grid.hpp"
+#include "meniscus/error.hpp"
+#include "meniscus/parts.hpp"
+#include "particles/positions.hpp"
+
+namespace meniscus {
+namespace {
+
+using Loads = std::span<BrickLoad>;
+
+std::uint64_t particles_of(std::span<const BrickLoad> loads) {
+    std::uint64_t particles = 0;
+    for (const BrickLoad& load : loads) particles += load.particles;
+    return particles;
+}
+
+/// A plane between two layers of bricks.
+struct Cut {
+    std::size_t axis = 0;
+    std::int32_t at = 0;  ///< the first layer above
+    double cost = std::numeric_limits<double>::infinity();
+};
+
+/// The best of the cuts along an axis through bricks with particles. below, above: numbers of parts on either side.
+Cut best_cut(Loads loads, const BrickBox& box, std::size_t axis, double below, double above) {
+    std::sort(loads.begin(), loads.end(),
+              [axis](const BrickLoad& a, const BrickLoad& b) { return a.brick[axis] < b.brick[axis]; });
+    const auto all = static_cast<double>(particles_of(loads));
+    Cut best{axis};
+    double under = 0.0, layer_before = 0.0;
+    for (std::size_t i = 0; i < loads.size();) {
+        const std::int32_t at = loads[i].brick[axis];
+        double layer = 0.0;
+        for (; i < loads.size() && loads[i].brick[axis] == at; ++i) layer += static_cast<double>(loads[i].particles);
+        // Below this layer; and above it, where the next one is empty.
+        const auto consider = [&](std::int32_t place, double particles, double last, double next) {
+            const double cost = std::max((particles + next / 2.0) / below, (all - particles + last / 2.0) / above);
+            if (place > box.low[axis] && place < box.high[axis] && cost < best.cost) best = {axis, place, cost};
+        };
+        consider(at, under, layer_before, layer);
+        under += layer;
+        const bool is_next = i < loads.size() && loads[i].brick[axis] == at + 1;
+        if (!is_next) consider(at + 1, under, layer, 0.0);
+        layer_before = is_next ? layer : 0.0;
+    }
+    return best;
+}
+
+/// Where there is nothing to weigh: the middle of the longest edge.
+Cut middle_cut(const BrickBox& box) {
+    Cut cut;
+    std::int32_t longest = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (const std::int32_t edge = box.high[axis] - box.low[axis]; edge > longest) {
+            longest = edge;
+            cut = {axis, box.low[axis] + edge / 2, 0.0};
+        }
+    return cut;
+}
+
+void deal(Loads loads, const BrickBox& box, std::size_t parts, std::vector<BrickBox>& boxes) {
+    bool is_one_brick = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) is_one_brick = is_one_brick && box.high[axis] - box.low[axis] == 1;
+    if (parts == 1 || is_one_brick) {
+        boxes.push_back(box);
+        return;
+    }
+    const std::size_t below = parts / 2;
+    Cut cut;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Cut other = best_cut(loads, box, axis, static_cast<double>(below), static_cast<double>(parts - below));
+        if (other.cost < cut.cost) cut = other;
+    }
+    if (loads.empty() || cut.cost == std::numeric_limits<double>::infinity()) cut = middle_cut(box);
+    const auto middle = std::partition(loads.begin(), loads.end(),
+                                       [&](const BrickLoad& load) { return load.brick[cut.axis] < cut.at; });
+    BrickBox low = box, high = box;
+    low.high[cut.axis] = high.low[cut.axis] = cut.at;
+    deal({loads.begin(), middle}, low, below, boxes);
+    deal({middle, loads.end()}, high, parts - below, boxes);
+}
+
+}  // namespace
+
+std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& settings) {
+    const PositionsView positions = positions_view(frame, units_per_cell / world_cell_size(settings));
+    constexpr std::int64_t edge = std::int64_t{units_per_base_cell} * brick_size;
+    std::vector<std::uint64_t> keys;
+    std::vector<BrickLoad> loads;
+    const auto brick = [&](std::int64_t unit) { return static_cast<std::int32_t>(floor_div(unit, edge)); };
+    const auto add_keys = [&] {
+        std::sort(keys.begin(), keys.end());
+        std::vector<BrickLoad> merged;
+        auto known = loads.begin();
+        const auto key_of = [](const BrickLoad& l) { return brick_key({l.brick[0], l.brick[1], l.brick[2]}); };
+        for (auto key = keys.begin(); key != keys.end();) {
+            const auto end = std::upper_bound(key, keys.end(), *key);
+            for (; known != loads.end() && key_of(*known) < *key; ++known) merged.push_back(*known);
+            const Int3 at = brick_coordinate(*key);
+            BrickLoad load{{at.x, at.y, at.z}, static_cast<std::uint64_t>(end - key)};
+            if (known != loads.end() && key_of(*known) == *key) load.particles += (known++)->particles;
+            merged.push_back(load);
+            key = end;
+        }
+        merged.insert(merged.end(), known, loads.end());
+        loads = std::move(merged);
+        keys.clear();
+    };
+    // Some at a time: a key for each particle would be as large as half of the frame.
+    constexpr std::size_t at_once = std::size_t{1} << 20;
+    for (std::size_t i = 0; i < frame.count(); ++i) {
+        const Units3 p = positions.snapped(i);
+        keys.push_back(brick_key({brick(p.x), brick(p.y), brick(p.z)}));
+        if (keys.size() == at_once) add_keys();
+    }
+    add_keys();
+    return loads;
+}
+
+std::vector<BrickBox> deal_bricks(std::vector<BrickLoad> loads, std::size_t parts) {
+    if (parts < 1 || parts > max_parts)
+        throw InvalidInput("the parts are " + std::to_string(parts) + ", must be 1 to " + std::to_string(max_parts));
+    std::vector<BrickBox> boxes;
+    deal(loads, all_bricks, parts, boxes);
+    return boxes;
+}
+
+}  // namespace meniscus

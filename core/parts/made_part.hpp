@@ -1,0 +1,72 @@
+// What is told of a part that has been made, and summed up to the whole frame's figures.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "meniscus/mesh.hpp"
+#include "meniscus/part.hpp"
+#include "meniscus/statistics.hpp"
+
+namespace meniscus {
+
+/// What a process tells of a part that it has made.
+struct MadePart {
+    std::uint64_t particles = 0;
+    std::uint64_t vertices = 0;
+    std::array<std::uint64_t, triangle_level_count> triangles_by_level{};
+    std::array<std::uint64_t, 3> base_cells_by_level{};
+    std::uint64_t sixfold_volume = 0;
+    std::uint64_t spray_particles = 0;
+    std::uint64_t vertices_without_particles = 0;
+    std::uint64_t field_evaluations = 0;
+    std::array<double, stage_count> stage_seconds{};
+    float greatest_sample = 0.0F;
+
+    MadePart() = default;
+    MadePart(std::uint64_t received, const Statistics& s, const PartOutcome& outcome)
+        : particles(received),
+          vertices(s.vertices),
+          triangles_by_level(s.triangles_by_level),
+          base_cells_by_level(s.base_cells_by_level),
+          sixfold_volume(outcome.sixfold_volume),
+          spray_particles(s.spray_particles),
+          vertices_without_particles(s.vertices_without_particles),
+          field_evaluations(s.field_evaluations),
+          stage_seconds(s.stage_seconds),
+          greatest_sample(outcome.greatest_sample) {}
+    /// Sums, and the greatest sample of all.
+    void add(const MadePart& o) {
+        const auto add_all = [](auto& sums, const auto& others) {
+            for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += others[i];
+        };
+        particles += o.particles;
+        vertices += o.vertices;
+        add_all(triangles_by_level, o.triangles_by_level);
+        add_all(base_cells_by_level, o.base_cells_by_level);
+        sixfold_volume += o.sixfold_volume;
+        spray_particles += o.spray_particles;
+        vertices_without_particles += o.vertices_without_particles;
+        field_evaluations += o.field_evaluations;
+        add_all(stage_seconds, o.stage_seconds);
+        greatest_sample = std::max(greatest_sample, o.greatest_sample);
+    }
+};
+
+/// A mesh's vertices on the faces of a box of bricks: those that other parts may have, too.
+inline std::vector<LatticePosition> border_vertices(const Mesh& mesh, const BrickBox& box) {
+    std::vector<LatticePosition> on_border;
+    const auto brick_units = static_cast<std::int64_t>(brick_cells) << mesh.offset_bits;
+    for (const LatticePosition& v : mesh.vertices) {
+        bool is_on_border = false;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            is_on_border =
+                is_on_border || v[axis] == box.low[axis] * brick_units || v[axis] == box.high[axis] * brick_units;
+        if (is_on_border) on_border.push_back(v);
+    }
+    return on_border;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,87 @@
+// What processes of one frame send each other: values and arrays, as they lie in memory. They run the same program on
+// machines of the same kind.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "meniscus/error.hpp"
+
+namespace meniscus {
+
+class MessageWriter {
+public:
+    template <class T>
+    void add(const T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        add_bytes(&value, sizeof value);
+    }
+    template <class T>
+    void add_all(std::span<const T> values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        add(static_cast<std::uint64_t>(values.size()));
+        add_bytes(values.data(), values.size_bytes());
+    }
+    void add_text(std::string_view text) { add_all(std::span<const char>(text)); }
+    std::vector<std::byte> take() { return std::move(bytes_); }
+
+private:
+    void add_bytes(const void* from, std::size_t size) {
+        if (size == 0) return;
+        const auto* const begin = static_cast<const std::byte*>(from);
+        bytes_.insert(bytes_.end(), begin, begin + size);
+    }
+
+    std::vector<std::byte> bytes_;
+};
+
+/// Throws InvalidInput where a message ends too early: then the processes do not run the same program.
+class MessageReader {
+public:
+    explicit MessageReader(std::span<const std::byte> bytes) : left_(bytes) {}
+
+    template <class T>
+    T get() {
+        static_assert(std::is_trivially_copyable_v<T>);
+        T value{};
+        copy(&value, 1);
+        return value;
+    }
+    /// Behind what is there.
+    template <class T>
+    void append_to(std::vector<T>& values) {
+        const auto count = get<std::uint64_t>();
+        if (count > left_.size() / sizeof(T)) refuse();
+        const std::size_t before = values.size();
+        values.resize(before + count);
+        copy(values.data() + before, count);
+    }
+    std::string get_text() {
+        std::vector<char> characters;
+        append_to(characters);
+        return {characters.begin(), characters.end()};
+    }
+    bool is_at_end() const { return left_.empty(); }
+
+private:
+    [[noreturn]] static void refuse() {
+        throw InvalidInput(
+            "a process has sent a message that ends too early: all processes of a frame must run the same version");
+    }
+    template <class T>
+    void copy(T* to, std::size_t count) {
+        if (count > left_.size() / sizeof(T)) refuse();
+        if (count != 0) std::memcpy(to, left_.data(), count * sizeof(T));
+        left_ = left_.subspan(count * sizeof(T));
+    }
+
+    std::span<const std::byte> left_;
+};
+
+}  // namespace meniscus

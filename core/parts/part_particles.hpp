@@ -1,0 +1,56 @@
+// The particles of a part: chosen from those of each process, sent, and put side by side.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "meniscus/particle_frame.hpp"
+#include "meniscus/settings.hpp"
+
+namespace meniscus {
+
+/// What a frame's arrays have in common in all processes.
+struct FrameForm {
+    bool is_quantized = false;
+    Box quantization_box;
+    bool has_levels = false;
+    struct Array {
+        std::string name;
+        ElementType type = ElementType::float32;
+        std::uint64_t components = 1;
+        bool operator==(const Array&) const = default;
+    };
+    std::vector<Array> arrays;
+
+    explicit FrameForm(const ParticleFrame& frame);
+    FrameForm() = default;
+    bool operator==(const FrameForm&) const = default;
+};
+
+/// The particles of a valid frame that lie within a closed box, world units, as a message.
+std::vector<std::byte> particles_within(const ParticleFrame& frame, const Box& box);
+
+/// Owns the arrays of a part's frame.
+class PartParticles {
+public:
+    /// form: of the frames that the messages are from; those of none have no particles.
+    PartParticles(const FrameForm& form) : form_(form), arrays_(form.arrays.size()) {}
+
+    void add(std::span<const std::byte> message);
+    /// Lives as long as this.
+    const ParticleFrame& frame();
+
+private:
+    const FrameForm& form_;
+    std::vector<float> positions_;
+    std::vector<std::uint16_t> quantized_;
+    std::vector<std::uint8_t> levels_;
+    std::vector<std::vector<std::byte>> arrays_;
+    std::vector<ParticleArray> borrowed_;
+    ParticleFrame frame_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,90 @@
+// Bricks are dealt to parts: each brick to one, and as many particles to each as cuts between bricks allow.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "support/parts.hpp"
+
+namespace meniscus {
+namespace {
+
+std::vector<BrickLoad> random_loads(unsigned seed, int count) {
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<std::int32_t> place(-6, 6);
+    std::vector<BrickLoad> loads;
+    for (int i = 0; i < count; ++i) loads.push_back({{place(random), place(random), place(random)}, random() % 100});
+    return loads;
+}
+
+std::uint64_t load_of(const BrickBox& box, const std::vector<BrickLoad>& loads) {
+    std::uint64_t particles = 0;
+    for (const BrickLoad& load : loads)
+        if (box.holds(load.brick)) particles += load.particles;
+    return particles;
+}
+
+TEST(DealBricks, GivesEachBrickToOnePart) {
+    for (const int count : {0, 1, 2, 300})
+        for (const std::size_t parts : {1U, 2U, 3U, 7U, 8U, 27U, 100U}) {
+            const std::vector<BrickLoad> loads = random_loads(5, count);
+            const std::vector<BrickBox> boxes = deal_bricks(loads, parts);
+            ASSERT_LE(boxes.size(), parts);
+            if (parts < 30) {
+                ASSERT_EQ(boxes.size(), parts);
+            }
+            double volume = 0.0;
+            for (const BrickBox& box : boxes) {
+                double of_box = 1.0;
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    ASSERT_LT(box.low[axis], box.high[axis]);
+                    of_box *= static_cast<double>(box.high[axis]) - box.low[axis];
+                }
+                volume += of_box;
+            }
+            EXPECT_EQ(volume, std::pow(2.0 * brick_end, 3));
+            for (const BrickLoad& load : loads)
+                EXPECT_EQ(
+                    std::count_if(boxes.begin(), boxes.end(), [&](const BrickBox& b) { return b.holds(load.brick); }),
+                    1);
+        }
+}
+
+TEST(DealBricks, DoesNotDependOnTheOrderOfLoads) {
+    std::vector<BrickLoad> loads = random_loads(6, 200);
+    const std::vector<BrickBox> boxes = deal_bricks(loads, 9);
+    for (unsigned seed = 0; seed < 5; ++seed) {
+        std::shuffle(loads.begin(), loads.end(), std::mt19937(seed));
+        EXPECT_EQ(deal_bricks(loads, 9), boxes);
+    }
+}
+
+TEST(DealBricks, GivesPartsOfACubeTheSame) {
+    std::vector<BrickLoad> loads;
+    for (std::int32_t i = 0; i < 8 * 8 * 8; ++i) loads.push_back({{i % 8, i / 8 % 8, i / 64}, 10});
+    for (const std::size_t parts : {2U, 4U, 8U, 64U})
+        for (const BrickBox& box : deal_bricks(loads, parts)) EXPECT_EQ(load_of(box, loads), 5120 / parts);
+}
+
+TEST(DealBricks, CutsWhereThereIsLittle) {
+    // Two blocks of water, three bricks wide each, with a film between.
+    std::vector<BrickLoad> loads;
+    for (std::int32_t x = 0; x < 9; ++x) loads.push_back({{x, 0, 0}, x < 3 || x > 5 ? 1000U : 1U});
+    const std::vector<BrickBox> boxes = deal_bricks(loads, 2);
+    EXPECT_GT(boxes[0].high[0], 3);
+    EXPECT_LT(boxes[0].high[0], 6);
+}
+
+TEST(DealBricks, CountsTheParticlesOfBricks) {
+    const test::Particles particles = test::noise_cube(7, 5000, 0.5, 0.025);
+    const Settings settings = test::default_settings();
+    std::uint64_t count = 0;
+    for (const BrickLoad& load : brick_loads(particles.frame(), settings)) {
+        EXPECT_GT(load.particles, 0U);
+        count += load.particles;
+    }
+    EXPECT_EQ(count, particles.count());
+}
+
+}  // namespace
+}  // namespace meniscus

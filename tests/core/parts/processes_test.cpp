@@ -1,0 +1,122 @@
+// Several processes with some of the particles each, as threads: whatever each has, and however parts are dealt to
+// them, all parts together give the whole's mesh.
+#include <gtest/gtest.h>
+
+#include <barrier>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include "support/parts.hpp"
+
+namespace meniscus {
+namespace {
+
+/// The place where threads that stand for processes exchange.
+class Meeting {
+public:
+    explicit Meeting(std::size_t ranks) : barrier_(static_cast<std::ptrdiff_t>(ranks)), given_(ranks) {}
+    std::size_t ranks() const { return given_.size(); }
+    /// Gives what one has for each of the others; returns what each has for this one.
+    std::vector<PartExchange::Bytes> exchange(std::size_t rank, std::vector<PartExchange::Bytes> to) {
+        given_[rank] = std::move(to);
+        barrier_.arrive_and_wait();
+        std::vector<PartExchange::Bytes> from;
+        for (const auto& its : given_) from.push_back(its[rank]);
+        barrier_.arrive_and_wait();
+        return from;
+    }
+
+private:
+    std::barrier<> barrier_;
+    std::vector<std::vector<PartExchange::Bytes>> given_;
+};
+
+class ThreadExchange final : public PartExchange {
+public:
+    ThreadExchange(Meeting& meeting, std::size_t rank) : meeting_(meeting), rank_(rank) {}
+    std::size_t rank() const override { return rank_; }
+    std::size_t ranks() const override { return meeting_.ranks(); }
+    std::vector<Bytes> gather(Bytes mine) override {
+        return meeting_.exchange(rank_, std::vector<Bytes>(ranks(), mine));
+    }
+    std::vector<Bytes> all_to_all(std::vector<Bytes> to) override { return meeting_.exchange(rank_, std::move(to)); }
+
+private:
+    Meeting& meeting_;
+    std::size_t rank_;
+};
+
+/// rank_of(particle)
+void expect_the_whole_of_processes(const Settings& settings, test::ParticlesWithArrays& all, std::size_t ranks,
+                                   std::size_t parts, const std::function<std::size_t(std::size_t)>& rank_of) {
+    std::vector<test::ParticlesWithArrays> of_rank(ranks);
+    for (std::size_t rank = 0; rank < ranks; ++rank) {
+        of_rank[rank].names = all.names;
+        of_rank[rank].arrays = all.arrays;
+        of_rank[rank].bytes.resize(all.bytes.size());
+    }
+    for (std::size_t i = 0; i < all.particles.count(); ++i) {
+        test::ParticlesWithArrays& its = of_rank[rank_of(i)];
+        its.particles.add(all.particles.positions[3 * i], all.particles.positions[3 * i + 1],
+                          all.particles.positions[3 * i + 2]);
+        for (std::size_t a = 0; a < all.bytes.size(); ++a) {
+            const std::size_t size = all.arrays[a].element_bytes();
+            const auto from = all.bytes[a].begin() + static_cast<std::ptrdiff_t>(i * size);
+            its.bytes[a].insert(its.bytes[a].end(), from, from + static_cast<std::ptrdiff_t>(size));
+        }
+    }
+    Meeting meeting(ranks);
+    std::mutex mutex;
+    test::FrameOfParts result;
+    std::vector<PartsReport> reports(ranks);
+    std::vector<std::thread> processes;
+    for (std::size_t rank = 0; rank < ranks; ++rank)
+        processes.emplace_back([&, rank] {
+            ThreadExchange exchange(meeting, rank);
+            PartsReconstructor reconstructor(settings, {Backend::cpu, 1, 0}, {.parts = parts}, exchange);
+            const PartSink sink = result.sink();
+            reports[rank] = reconstructor.reconstruct(of_rank[rank].frame(), [&](const FinishedPart& part) {
+                const std::lock_guard lock(mutex);
+                sink(part);
+            });
+        });
+    for (std::thread& process : processes) process.join();
+    Reconstructor reconstructor(settings, {Backend::cpu, 1, 0});
+    Mesh whole;
+    reconstructor.reconstruct(all.frame(), whole);
+    test::expect_same_mesh(result.whole(), whole);
+    for (const PartsReport& report : reports) {
+        EXPECT_EQ(report.whole.particles, all.particles.count());
+        EXPECT_EQ(report.whole.volume, reconstructor.statistics().volume);
+        EXPECT_EQ(report.whole.vertices, whole.vertices.size());
+        EXPECT_EQ(report.parts_made, reports[0].parts_made);
+    }
+}
+
+TEST(Processes, GiveTheWholesMeshHoweverParticlesAreDealt) {
+    test::ParticlesWithArrays all = test::with_noise(test::splash(61, 12), 61);
+    Settings settings = test::default_settings();
+    settings.cell_size = 0.25;
+    settings.all_attributes = true;
+    std::mt19937 random(61);
+    for (const std::size_t ranks : {2U, 3U, 5U}) {
+        SCOPED_TRACE(ranks);
+        expect_the_whole_of_processes(settings, all, ranks, ranks, [&](std::size_t) { return random() % ranks; });
+        expect_the_whole_of_processes(settings, all, ranks, ranks, [&](std::size_t) { return ranks - 1; });
+        expect_the_whole_of_processes(settings, all, ranks, ranks,
+                                      [&](std::size_t i) { return i * ranks / all.particles.count(); });
+        expect_the_whole_of_processes(settings, all, ranks, 2 * ranks + 1,
+                                      [&](std::size_t) { return random() % ranks; });
+    }
+}
+
+TEST(Processes, MendNoiseTogether) {
+    test::ParticlesWithArrays all;
+    all.particles = test::noise_cube(62, 6000, 0.5, 0.025);
+    std::mt19937 random(62);
+    expect_the_whole_of_processes(test::default_settings(), all, 4, 4, [&](std::size_t) { return random() % 4; });
+}
+
+}  // namespace
+}  // namespace meniscus
