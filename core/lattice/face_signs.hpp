@@ -12,13 +12,23 @@ struct FaceSigns {
     BlockMask inside[9];
     BlockMask subfaces;  ///< lowest corners of the coarse subfaces, in the upper cell's block
 
-    /// upper: the stored cell whose lower face along the axis this is.
+    /// upper: the stored cell whose lower face along the axis this is. Points without a value are outside.
     MENISCUS_HD FaceSigns(const BlocksView& blocks, std::uint32_t upper, int axis, int stride)
         : FaceSigns(
               blocks.inside[upper], blocks.inside_or_none(blocks.neighbor(upper, axis_offset((axis + 1) % 3))),
               blocks.inside_or_none(blocks.neighbor(upper, axis_offset((axis + 2) % 3))),
               blocks.inside_or_none(blocks.neighbor(upper, axis_offset((axis + 1) % 3) + axis_offset((axis + 2) % 3))),
               axis, stride) {}
+    /// The same, with points without a value inside.
+    MENISCUS_HD static FaceSigns possible(const BlocksView& blocks, std::uint32_t upper, int axis, int stride) {
+        const auto of = [&](const Int3& offset) {
+            const std::uint32_t block = blocks.neighbor(upper, offset);
+            return block == no_index ? BlockMask{0} : blocks.inside[block] | ~blocks.sampled[block];
+        };
+        const Int3 u = axis_offset((axis + 1) % 3);
+        const Int3 v = axis_offset((axis + 2) % 3);
+        return {of({}), of(u), of(v), of(u + v), axis, stride};
+    }
     /// The same, of the signs of the four blocks that hold the face's points: the upper cell's, and those up u and v.
     MENISCUS_HD FaceSigns(BlockMask own, BlockMask up_u, BlockMask up_v, BlockMask up_uv, int axis, int stride)
         : subfaces(stride_points(2 * stride) & low_face(axis)) {
@@ -35,8 +45,11 @@ struct FaceSigns {
         return (corners_any() | middles_any()) & ~(corners_all() & middles_all()) & subfaces;
     }
     /// Subfaces whose corners agree, and hide a point of the other sign.
-    MENISCUS_HD BlockMask hiding() const {
-        return ((middles_any() & ~corners_any()) | (corners_all() & ~middles_all())) & subfaces;
+    MENISCUS_HD BlockMask hiding() const { return hiding(*this); }
+    /// The same, where the points that have no value yet are no evidence: they are outside here, and inside in
+    /// `possible`.
+    MENISCUS_HD BlockMask hiding(const FaceSigns& possible) const {
+        return ((middles_any() & ~possible.corners_any()) | (corners_all() & ~possible.middles_all())) & subfaces;
     }
     /// The points of a subface that are inside, as bits u + 3 v.
     MENISCUS_HD int pattern(int bit) const {

@@ -101,12 +101,16 @@ MENISCUS_HD inline std::uint64_t cells_beside_finer(const LevelSets& levels, std
 }
 
 /// Whether a finer neighbor of a cell of the band sees surface on their common face where this cell's own corners show
-/// none: its part there would end in a closed sliver at the face.
+/// none: its part there would end in a closed sliver at the face. Cells that have just joined the band are not sampled
+/// yet: what they would see is found out in the next round.
 MENISCUS_HD inline bool misses_surface(const BlocksView& blocks, std::uint32_t block, const CellFace& face) {
     const int level = blocks.level[block];
     const std::uint32_t other = blocks.neighbor(block, face.offset());
-    return blocks.level_or_none(other) > level &&
-           FaceSigns(blocks, face.side == 1 ? other : block, face.axis, level_stride(level) / 2).hiding() != 0;
+    if (blocks.level_or_none(other) <= level) return false;
+    const std::uint32_t upper = face.side == 1 ? other : block;
+    const int stride = level_stride(level) / 2;
+    const FaceSigns signs(blocks, upper, face.axis, stride);
+    return signs.hiding() != 0 && signs.hiding(FaceSigns::possible(blocks, upper, face.axis, stride)) != 0;
 }
 
 /// Whether a rule, one of the two above, holds for any face of a cell.

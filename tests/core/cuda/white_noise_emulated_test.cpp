@@ -239,6 +239,7 @@ TEST(WhiteNoiseEmulated, GivesClosedManifoldsWhenTheBandMustGrow) {
 }
 TEST(WhiteNoiseEmulated, GivesTheCpusMeshWhereTheBandGrowsBesideSlivers) {
     expect_closed({.share = 0.04, .keeps_slivers = false, .band_share = 0.6}, 9001, 30);
+    expect_closed({.share = 0.985, .keeps_slivers = false, .band_share = 0.2}, 9081, 30);
 }
 TEST(WhiteNoiseEmulated, GivesClosedManifoldsWhereLevelsAreCapped) {
     for (const int max_level : {1, 2}) expect_closed({.max_level = max_level}, 8001, 20);
