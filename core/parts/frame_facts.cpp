@@ -61,7 +61,11 @@ FrameFacts facts_together(const std::vector<PartExchange::Bytes>& of_ranks) {
     FrameFacts all;
     for (const PartExchange::Bytes& bytes : of_ranks) {
         FrameFacts facts = unpacked_facts(bytes);
-        if (facts.particles() == 0) continue;  // of any form
+        if (facts.particles() == 0) {
+            // Of any form; where nobody has particles, the arrays that are named give a mesh its attributes.
+            if (all.particles() == 0 && all.form.arrays.empty()) all.form = std::move(facts.form);
+            continue;
+        }
         if (all.particles() != 0 && !(facts.form == all.form))
             throw InvalidInput(
                 "the processes' particles come in different encodings, or with different arrays: all must bring the "

@@ -51,6 +51,12 @@ FrameForm::FrameForm(const ParticleFrame& frame)
         arrays.push_back({std::string(array.name), array.type, array.components});
 }
 
+std::vector<ParticleArray> FrameForm::without_values() const {
+    std::vector<ParticleArray> all;
+    for (const Array& array : arrays) all.push_back({array.name, {}, array.type, array.components});
+    return all;
+}
+
 std::vector<std::byte> particles_within(const ParticleFrame& frame, const Box& box) {
     const Places places(frame);
     std::vector<std::uint32_t> chosen;

@@ -27,6 +27,8 @@ struct FrameForm {
 
     explicit FrameForm(const ParticleFrame& frame);
     FrameForm() = default;
+    /// Lives as long as this.
+    std::vector<ParticleArray> without_values() const;
     bool operator==(const FrameForm&) const = default;
 };
 

@@ -9,6 +9,7 @@
 #include "meniscus/reconstructor.hpp"
 #include "particles/attribute_choice.hpp"
 #include "particles/seams.hpp"
+#include "particles/validation.hpp"
 #include "particles/warnings.hpp"
 #include "parts/compare_seams.hpp"
 #include "parts/frame_facts.hpp"
@@ -35,13 +36,16 @@ public:
     }
 
     PartsReport reconstruct(const ParticleFrame& given, const PartSink& sink) {
-        validate(given, settings());
+        // As a Reconstructor does, which passes over arrays that the frames before did not bring.
+        validate_lengths(given);
+        const std::vector<ParticleArray> arrays = choice_.of(given);
+        validate_places(given, settings());
         ParticleFrame mine = given;
         mine.sent = nullptr;
-        const std::vector<ParticleArray> arrays = choice_.of(given);
         mine.arrays = arrays;
         const FrameFacts facts = facts_together(exchange_.gather(packed(facts_of(mine))));
-        choice_.keep(arrays);
+        // All processes hold the next frames against the same arrays, also one that has brought none.
+        choice_.keep(facts.form.without_values());
 
         own_ = deal_bricks(facts.loads, options_.parts);
         overlaps_.assign(own_.size(), options_.overlap);

@@ -65,7 +65,7 @@ meniscus_result meniscus_publisher_push(meniscus_publisher* publisher, const men
                                         double simulation_time) {
     return guarded([&] {
         const meniscus_mesh& pushed = required(mesh, "mesh");
-        push(required(publisher, "publisher"), pushed, {}, index, simulation_time);
+        push(required(publisher, "publisher"), pushed, meniscus::all_bricks, index, simulation_time);
         return MENISCUS_OK;
     });
 }

@@ -135,6 +135,39 @@ TEST(Parts, OfAFrameWithoutParticlesAreEmpty) {
     test::expect_the_whole(test::default_settings(), test::Particles{}.frame(), {.parts = 3});
 }
 
+TEST(Parts, OfAFrameWithoutParticlesHaveItsAttributes) {
+    test::ParticlesWithArrays none;
+    none.add_floats("age", 1, [](std::size_t, std::size_t) { return 0.0F; });
+    Settings settings = test::default_settings();
+    settings.all_attributes = true;
+    for (const std::size_t parts : {1U, 3U}) {
+        test::expect_the_whole(settings, none.frame(), {.parts = parts});
+        EXPECT_EQ(test::in_parts(settings, none.frame(), {.parts = parts}).whole().attributes.size(), 1U);
+    }
+}
+
+TEST(Parts, PassOverTheArraysThatTheFirstFrameDidNotBring) {
+    test::ParticlesWithArrays particles;
+    particles.particles = test::splash(51, 6);
+    const auto age = [](std::size_t i, std::size_t) { return static_cast<float>(i); };
+    particles.add_floats("age", 1, age);
+    Settings settings = test::default_settings();
+    settings.all_attributes = true;
+    AloneExchange alone;
+    PartsReconstructor in_parts(settings, {Backend::cpu, 1, 0}, {.parts = 2}, alone);
+    Reconstructor reconstructor(settings, {Backend::cpu, 1, 0});
+    for (int frame = 0; frame < 2; ++frame) {
+        test::FrameOfParts result;
+        in_parts.reconstruct(particles.frame(), result.sink());
+        Mesh whole;
+        reconstructor.reconstruct(particles.frame(), whole);
+        test::expect_same_mesh(result.whole(), whole);
+        // Neither could be an attribute.
+        particles.add_floats("stress", 9, age);
+        particles.add_floats("unset", 1, [](std::size_t, std::size_t) { return NAN; });
+    }
+}
+
 TEST(Parts, RefuseWhatIsOutOfRange) {
     AloneExchange alone;
     const Settings settings = test::default_settings();

@@ -111,6 +111,45 @@ TEST(Processes, GiveTheWholesMeshHoweverParticlesAreDealt) {
     }
 }
 
+TEST(Processes, ChooseTheSameAttributesWhicheverHadParticlesFirst) {
+    Settings settings = test::default_settings();
+    settings.all_attributes = true;
+    const auto age = [](std::size_t i, std::size_t) { return static_cast<float>(i); };
+    std::vector<test::ParticlesWithArrays> of_rank(2);
+    Meeting meeting(of_rank.size());
+    std::mutex mutex;
+    std::vector<test::FrameOfParts> results(2);
+    std::barrier between(static_cast<std::ptrdiff_t>(of_rank.size()));
+    std::vector<std::thread> processes;
+    for (std::size_t rank = 0; rank < of_rank.size(); ++rank)
+        processes.emplace_back([&, rank] {
+            test::ParticlesWithArrays& mine = of_rank[rank];
+            ThreadExchange exchange(meeting, rank);
+            PartsReconstructor reconstructor(settings, {Backend::cpu, 1, 0}, {.parts = 2}, exchange);
+            for (std::size_t frame = 0; frame < results.size(); ++frame) {
+                if (rank == frame) mine.particles = test::splash(63, 8);
+                if (rank == 0 || frame == 1) {
+                    mine = {.particles = mine.particles, .names = {}, .arrays = {}, .bytes = {}};
+                    mine.add_floats("age", 1, age);
+                    if (frame == 1) mine.add_floats("pressure", 1, age);
+                }
+                const PartSink sink = results[frame].sink();
+                EXPECT_NO_THROW(reconstructor.reconstruct(mine.frame(), [&](const FinishedPart& part) {
+                    const std::lock_guard lock(mutex);
+                    sink(part);
+                }));
+                between.arrive_and_wait();
+            }
+        });
+    for (std::thread& process : processes) process.join();
+    for (const test::FrameOfParts& result : results) {
+        const Mesh whole = result.whole();
+        ASSERT_EQ(whole.attributes.size(), 1U);
+        EXPECT_EQ(whole.attributes[0].name, "age");
+        EXPECT_FALSE(whole.triangles.empty());
+    }
+}
+
 TEST(Processes, MendNoiseTogether) {
     test::ParticlesWithArrays all;
     all.particles = test::noise_cube(62, 6000, 0.5, 0.025);
