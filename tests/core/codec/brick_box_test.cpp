@@ -172,8 +172,7 @@ TEST(BrickBoxes, WithAHaloOfParticlesHaveTheBricksOfTheWhole) {
                         bool is_near = true;
                         for (std::size_t axis = 0; axis < 3; ++axis) {
                             const double at = all.positions[3 * i + axis];
-                            is_near &= at >= box.low.at(axis) * edge - reach &&
-                                       at <= box.high.at(axis) * edge + reach;
+                            is_near &= at >= box.low.at(axis) * edge - reach && at <= box.high.at(axis) * edge + reach;
                         }
                         if (is_near) mine.add(all.positions[3 * i], all.positions[3 * i + 1], all.positions[3 * i + 2]);
                     }
@@ -198,8 +197,7 @@ TEST(BrickBoxes, HaveTheRangesOfTheirOwnVertices) {
     ParticleFrame frame = particles.frame();
     frame.arrays = std::span(&array, 1);
     const Surface whole = surface_of(settings, frame);
-    const SurfacePart lower = part_of(whole.mesh, whole.statistics,
-                                      {all_bricks.low, {brick_end, brick_end, 1}});
+    const SurfacePart lower = part_of(whole.mesh, whole.statistics, {all_bricks.low, {brick_end, brick_end, 1}});
     const SurfacePart upper = part_of(whole.mesh, whole.statistics, {{-brick_end, -brick_end, 1}, all_bricks.high});
     const auto all = attribute_ranges(whole.mesh);
     ASSERT_EQ(lower.ranges.size(), 1U);
