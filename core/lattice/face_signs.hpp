@@ -14,20 +14,12 @@ struct FaceSigns {
 
     /// upper: the stored cell whose lower face along the axis this is. Points without a value are outside.
     MENISCUS_HD FaceSigns(const BlocksView& blocks, std::uint32_t upper, int axis, int stride)
-        : FaceSigns(
-              blocks.inside[upper], blocks.inside_or_none(blocks.neighbor(upper, axis_offset((axis + 1) % 3))),
-              blocks.inside_or_none(blocks.neighbor(upper, axis_offset((axis + 2) % 3))),
-              blocks.inside_or_none(blocks.neighbor(upper, axis_offset((axis + 1) % 3) + axis_offset((axis + 2) % 3))),
-              axis, stride) {}
+        : FaceSigns(blocks, upper, axis, stride, [&](std::uint32_t block) { return blocks.inside_or_none(block); }) {}
     /// The same, with points without a value inside.
     MENISCUS_HD static FaceSigns possible(const BlocksView& blocks, std::uint32_t upper, int axis, int stride) {
-        const auto of = [&](const Int3& offset) {
-            const std::uint32_t block = blocks.neighbor(upper, offset);
-            return block == no_index ? BlockMask{0} : blocks.inside[block] | ~blocks.sampled[block];
-        };
-        const Int3 u = axis_offset((axis + 1) % 3);
-        const Int3 v = axis_offset((axis + 2) % 3);
-        return {of({}), of(u), of(v), of(u + v), axis, stride};
+        return {blocks, upper, axis, stride, [&](std::uint32_t block) {
+                    return block == no_index ? BlockMask{0} : blocks.inside[block] | ~blocks.sampled[block];
+                }};
     }
     /// The same, of the signs of the four blocks that hold the face's points: the upper cell's, and those up u and v.
     MENISCUS_HD FaceSigns(BlockMask own, BlockMask up_u, BlockMask up_v, BlockMask up_uv, int axis, int stride)
@@ -59,6 +51,15 @@ struct FaceSigns {
     }
 
 private:
+    /// inside_of: a block's points that are inside; none where no block is stored.
+    template <class InsideOf>
+    MENISCUS_HD FaceSigns(const BlocksView& blocks, std::uint32_t upper, int axis, int stride,
+                          const InsideOf& inside_of)
+        : FaceSigns(inside_of(upper), inside_of(blocks.neighbor(upper, axis_offset((axis + 1) % 3))),
+                    inside_of(blocks.neighbor(upper, axis_offset((axis + 2) % 3))),
+                    inside_of(blocks.neighbor(upper, axis_offset((axis + 1) % 3) + axis_offset((axis + 2) % 3))), axis,
+                    stride) {}
+
     MENISCUS_HD BlockMask corners_any() const { return inside[0] | inside[2] | inside[6] | inside[8]; }
     MENISCUS_HD BlockMask corners_all() const { return inside[0] & inside[2] & inside[6] & inside[8]; }
     MENISCUS_HD BlockMask middles_any() const { return inside[1] | inside[3] | inside[4] | inside[5] | inside[7]; }

@@ -67,7 +67,6 @@ public:
         append_to(characters);
         return {characters.begin(), characters.end()};
     }
-    bool is_at_end() const { return left_.empty(); }
 
 private:
     [[noreturn]] static void refuse() {

@@ -67,35 +67,19 @@ const Number* interleaved(std::span<const Numbers, 3> axes, std::vector<Number>&
     return positions.data();
 }
 
-std::optional<meniscus_type> attribute_type(NumberType type) {
-    switch (type) {
-        case NumberType::float32:
-        case NumberType::float64:
-            return MENISCUS_FLOAT32;
-        case NumberType::uint8:
-            return MENISCUS_UINT8;
-        case NumberType::int32:
-            return MENISCUS_INT32;
-        case NumberType::uint32:
-            return MENISCUS_UINT32;
-        default:
-            return std::nullopt;
-    }
-}
-
-ElementType element_type(meniscus_type type) {
-    switch (type) {
-        case MENISCUS_FLOAT32:
-            return ElementType::float32;
-        case MENISCUS_UINT8:
-            return ElementType::uint8;
-        case MENISCUS_INT32:
-            return ElementType::int32;
-        case MENISCUS_UINT32:
-            return ElementType::uint32;
-    }
-    return ElementType::float32;
-}
+/// What numbers of a field are as an attribute.
+struct AttributeType {
+    NumberType from;
+    ElementType type;
+    meniscus_type in_c;
+};
+constexpr std::array<AttributeType, 5> attribute_types{{
+    {NumberType::float32, ElementType::float32, MENISCUS_FLOAT32},
+    {NumberType::float64, ElementType::float32, MENISCUS_FLOAT32},
+    {NumberType::uint8, ElementType::uint8, MENISCUS_UINT8},
+    {NumberType::int32, ElementType::int32, MENISCUS_INT32},
+    {NumberType::uint32, ElementType::uint32, MENISCUS_UINT32},
+}};
 
 void gather_component(const Numbers& from, std::byte* to, std::size_t components) {
     switch (from.type) {
@@ -172,17 +156,17 @@ std::string MeshParticles::read_field(const Node& field, const std::string& name
     for (const Node& component : values.children()) parts.push_back(component.numbers());
     if (parts.empty()) parts.push_back(values.numbers());
 
-    const auto type = attribute_type(parts[0].type);
+    const auto* const type = std::ranges::find(attribute_types, parts[0].type, &AttributeType::from);
     const bool alike = std::ranges::all_of(parts, [&](const Numbers& part) { return part.type == parts[0].type; });
-    if (!type || !alike || !can_be_attribute(element_type(*type), parts.size()))
+    if (type == attribute_types.end() || !alike || !can_be_attribute(type->type, parts.size()))
         return std::to_string(parts.size()) + " of " + (alike ? name_of(parts[0].type) : "several types") +
                ", must be 1, 3 or 4 of float32, float64 or uint8, or 1 of int32 or uint32";
     for (const Numbers& part : parts)
         if (part.count != particles_.count)
             throw InvalidInput("field " + quoted(field.name()) + " has " + std::to_string(part.count) +
                                " numbers, must have one for each of " + std::to_string(particles_.count) + " points");
-    const std::size_t bytes = size_of(element_type(*type));
-    meniscus_array array{names_.emplace_back(name).c_str(), *type, static_cast<std::uint32_t>(parts.size()),
+    const std::size_t bytes = size_of(type->type);
+    meniscus_array array{names_.emplace_back(name).c_str(), type->in_c, static_cast<std::uint32_t>(parts.size()),
                          parts[0].first};
     if (!together(parts, bytes)) {
         std::vector<std::byte>& memory = gathered_.emplace_back(particles_.count * parts.size() * bytes);

@@ -57,12 +57,11 @@ void PartsSurfaces::submit(const ParticleFrame& frame, double simulation_time) {
     encoded_.clear();
     const PartsReport report = reconstructor_.reconstruct(frame, [&](const FinishedPart& part) {
         if (!as_bricks_) {
-            meshes_[part.number] = part.mesh;
+            meshes_[part.number] = std::move(part.mesh);
             return;
         }
-        Mesh mesh = part.mesh;
-        const CodingOptions coding = coding_.round(mesh);
-        encoded_[part.number] = client::encode_frame(mesh, part.statistics, frames_, simulation_time, coding);
+        const CodingOptions coding = coding_.round(part.mesh);
+        encoded_[part.number] = client::encode_frame(part.mesh, part.statistics, frames_, simulation_time, coding);
     });
     client::FrameStatistics statistics;
     static_cast<Statistics&>(statistics) = report.whole;

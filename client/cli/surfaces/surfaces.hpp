@@ -83,7 +83,7 @@ struct SurfacesOptions {
     SessionFlags session;            ///< on the server
     client::StreamOptions stream;    ///< to it; normals_by counts in this process, too
     bool bricks = false;             ///< no flag: whether surfaces are written as files of bricks
-    std::size_t parts = 1;           ///< no flag: parts that each frame is made in, in this process
+    std::size_t parts = 1;           ///< parts that each frame is made in, in this process; a flag of reconstruct alone
     bool only_one = false;           ///< no flag: whether a single frame is submitted, and its memory can go at once
 
     void add_to(CLI::App& command);

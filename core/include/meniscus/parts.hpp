@@ -66,7 +66,7 @@ struct PartsOptions {
 struct FinishedPart {
     std::size_t number;  ///< from 0, among all parts
     const FramePart& part;
-    const Mesh& mesh;
+    Mesh& mesh;  ///< which may be changed, or taken
     const Statistics& statistics;
 };
 using PartSink = std::function<void(const FinishedPart&)>;

@@ -72,7 +72,7 @@ public:
     /// Publishes a surface of Reconstructor::reconstruct(), which has kept its lattice (BackendOptions::keep_lattice),
     /// with its spray and all of its attributes. `index` is greater than the one before. Blocks as Stream::push() does.
     /// own: with `parts`, the bricks that this one publishes of a mesh that reaches farther, such as that of a rank
-    /// with the particles of its neighbors within margin(settings) around these bricks. The boxes of all parts cover
+    /// with the particles of its neighbors within halo(settings) around these bricks. The boxes of all parts cover
     /// the surface, and no brick is in two of them; part_of() says what becomes of the statistics. Throws InvalidInput,
     /// too, for a mesh without its lattice.
     void push(const Mesh& mesh, const Statistics& statistics, std::uint64_t index, double simulation_time,

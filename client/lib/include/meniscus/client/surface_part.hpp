@@ -14,7 +14,7 @@ ReceivedFrame encode_part(const Mesh& mesh, SurfacePart part, std::uint64_t inde
                           CodingOptions options = {});
 
 /// What Publisher::push() sends of a mesh: its bricks in the box, with the attributes that are wished. Throws
-/// InvalidInput for a mesh without its lattice (BackendOptions::keep_lattice), and as part_of() does.
+/// InvalidInput for a mesh without its lattice (BackendOptions::keep_lattice).
 ReceivedFrame encode_own(const Mesh& mesh, const Statistics& statistics, std::uint64_t index, double simulation_time,
                          const BrickBox& own, CodingOptions options, std::span<const AttributeWish> wishes);
 
