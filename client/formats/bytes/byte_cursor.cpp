@@ -21,15 +21,18 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t most_byte
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) throw InvalidInput(path.string() + ": no such file");
     if (!std::filesystem::is_regular_file(status)) throw InvalidInput(path.string() + ": not a regular file");
-    std::ifstream in(path, std::ios::binary);
-    const auto size = std::filesystem::file_size(path, error);
-    if (!in || error) throw InvalidInput(path.string() + ": cannot be opened for reading");
+    std::ifstream in(path, std::ios::binary | std::ios::ate);
+    // Of the file that is open: by now a writer may have put another one in its place.
+    const std::streamoff end = in.tellg();
+    if (end < 0) throw InvalidInput(path.string() + ": cannot be opened for reading");
+    const auto size = static_cast<std::uint64_t>(end);
     if (size > most_bytes)
         throw InvalidInput(path.string() + ": has " + std::to_string(size) + " bytes; at most " +
                            std::to_string(most_bytes) + " are read; --max-file-bytes allows more");
     std::string bytes(size, '\0');
-    in.read(bytes.data(), static_cast<std::streamsize>(size));
-    if (in.gcount() != static_cast<std::streamsize>(size))
+    in.seekg(0);
+    in.read(bytes.data(), end);
+    if (in.gcount() != end)
         throw InvalidInput(path.string() + ": only " + std::to_string(in.gcount()) + " of " + std::to_string(size) +
                            " bytes could be read");
     return bytes;

@@ -69,14 +69,16 @@ void write_durably(const std::filesystem::path& path, std::string_view bytes) {
 std::string read_whole(const std::filesystem::path& path, std::uint64_t most) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) throw InvalidInput(path.string() + ": no such file");
-    const std::uint64_t size = std::filesystem::file_size(path, error);
-    if (!error && size > most)
+    std::ifstream in(path, std::ios::binary | std::ios::ate);
+    // Of the file that is open: by now a writer may have put another one in its place.
+    const std::streamoff size = in.tellg();
+    if (size < 0) throw InvalidInput(path.string() + ": cannot be read");
+    if (static_cast<std::uint64_t>(size) > most)
         throw InvalidInput(path.string() + ": it has " + std::to_string(size) + " bytes; at most " +
                            std::to_string(most) + " are expected");
-    std::string bytes(error ? 0 : size, '\0');
-    std::ifstream in(path, std::ios::binary);
-    if (error || !in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-        throw InvalidInput(path.string() + ": cannot be read");
+    std::string bytes(static_cast<std::size_t>(size), '\0');
+    in.seekg(0);
+    if (!in.read(bytes.data(), size)) throw InvalidInput(path.string() + ": cannot be read");
     return bytes;
 }
 

@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "formats/bytes/byte_cursor.hpp"
@@ -218,6 +219,24 @@ TEST(Publication, ALiveOneIsReadAgainForTheFramesThatHaveCome) {
     writer.finish();
     publication.refresh();
     EXPECT_FALSE(publication.info().live);
+}
+
+TEST(Publication, IsReadWhileItsManifestIsReplaced) {
+    const TemporaryDirectory folder;
+    Row row;
+    PublicationWriter writer(folder.path(), published_settings(), {.live = true});
+    constexpr std::uint64_t count = 200;
+    std::jthread writes([&] {
+        for (std::uint64_t i = 0; i < count; ++i) {
+            writer.add(row.frame(i), frame_seconds);
+            writer.flush();
+        }
+    });
+    for (std::uint64_t frames = 0; frames < count;) {
+        const std::uint64_t there = Publication(folder.path()).info().frames;
+        ASSERT_GE(there, frames);
+        frames = there;
+    }
 }
 
 }  // namespace
