@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <exception>
 #include <future>
 #include <string>
 #include <vector>
@@ -25,11 +26,30 @@ protected:
         client.create_session(id, settings, {.description = {.name = "two", .length_unit = "m"}});
     }
 
-    std::future<ProcessResult> publish() const {
-        return std::async(std::launch::async, [this] {
-            return run_process(MENISCUS_CLI, {"publish", "two", "--server", server.address(), "--to", folder.string()});
+    /// A process that publishes the session, and ends when the session does: a test that fails does not wait for it.
+    class Publishing {
+    public:
+        explicit Publishing(PublishSession& test) : test_(test) {}
+        Publishing(const Publishing&) = delete;
+        Publishing& operator=(const Publishing&) = delete;
+        ~Publishing() {
+            if (!result_.valid()) return;
+            try {
+                test_.client.delete_session(test_.id);
+            } catch (const std::exception& error) {
+                ADD_FAILURE() << error.what();
+            }
+        }
+        ProcessResult result() { return result_.get(); }
+
+    private:
+        PublishSession& test_;
+        std::future<ProcessResult> result_ = std::async(std::launch::async, [this] {
+            return run_process(MENISCUS_CLI,
+                               {"publish", "two", "--server", test_.server.address(), "--to", test_.folder.string()});
         });
-    }
+    };
+
     /// The hash of the frame's mesh, once it is published.
     std::string pushed(client::Stream& stream, std::uint64_t index, std::uint64_t published) {
         const std::vector<float> positions{0.0F, 0.0F, 0.0F, 0.1F, 0.01F * static_cast<float>(published), 0.0F};
@@ -63,7 +83,7 @@ protected:
 
 TEST_F(PublishSession, EveryFrameIsThereOnceOverRunsAndPublishersUntilTheSessionEnds) {
     std::vector<std::string> hashes;
-    auto first = publish();
+    Publishing first(*this);
     wait_for(0);
     {
         auto stream = client.stream(id);
@@ -76,13 +96,13 @@ TEST_F(PublishSession, EveryFrameIsThereOnceOverRunsAndPublishersUntilTheSession
         hashes.push_back(pushed(stream, 3, 3));
         EXPECT_TRUE(client::Publication(folder).info().live);
         // A second publisher may not write there.
-        const ProcessResult second = publish().get();
+        const ProcessResult second = Publishing(*this).result();
         EXPECT_EQ(second.exit_code, 2);
         EXPECT_NE(second.err.find("another process publishes there"), std::string::npos) << second.err;
         stream.finish();
     }
     client.delete_session(id);
-    const ProcessResult result = first.get();
+    const ProcessResult result = first.result();
     EXPECT_EQ(result.exit_code, 0) << result.err;
 
     client::Publication publication(folder);
