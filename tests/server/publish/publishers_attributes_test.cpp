@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <random>
 #include <span>
 #include <string>
 #include <thread>
@@ -99,13 +101,21 @@ TEST_F(PublishersAttributes, NeedNotBeNamedByThoseWithoutBricks) {
             EXPECT_EQ(attributes_of(in_canonical_order(shown(id).mesh())),
                       attributes_of(in_canonical_order(whole.mesh())));
         }
-        ++index;
-        const client::ReceivedFrame whole = surface(with, index, names);
-        std::vector<client::ReceivedFrame> deal = dealt(whole, 2, 7);
-        for (client::ReceivedFrame& frame : deal) ASSERT_FALSE(frame.bricks.empty());
-        deal.insert(deal.begin() + 1, nothing(with, index));
-        publish(id, index + 1, deal);
-        EXPECT_EQ(mesh_sha256(shown(id).mesh()), mesh_sha256(whole.mesh()));
+        std::mt19937 random(1);
+        for (unsigned parts = 2; parts <= 10; ++parts) {
+            ++index;
+            const client::ReceivedFrame whole = surface(with, index, names);
+            std::vector<client::ReceivedFrame> deal = dealt(whole, parts - 1, parts);
+            for (client::ReceivedFrame& frame : deal)
+                if (frame.bricks.empty() && random() % 2 == 0) frame = nothing(with, index);
+            const auto place = static_cast<std::ptrdiff_t>(random() % parts);
+            deal.insert(deal.begin() + place, nothing(with, index));
+            publish(id, index + 1, deal);
+            EXPECT_EQ(mesh_sha256(shown(id).mesh()), mesh_sha256(whole.mesh())) << parts;
+            EXPECT_EQ(attributes_of(in_canonical_order(shown(id).mesh())),
+                      attributes_of(in_canonical_order(whole.mesh())))
+                << parts;
+        }
         ++index;
         publish(id, index + 1, frame_of(publisher_count));
         EXPECT_TRUE(shown(id).bricks.empty());
