@@ -14,6 +14,7 @@ namespace meniscus {
 
 /// What a process tells of a part that it has made.
 struct MadePart {
+    std::uint64_t number = 0;  ///< of the part; a sum has none
     std::uint64_t particles = 0;
     std::uint64_t vertices = 0;
     std::array<std::uint64_t, triangle_level_count> triangles_by_level{};
@@ -26,8 +27,9 @@ struct MadePart {
     float greatest_sample = 0.0F;
 
     MadePart() = default;
-    MadePart(std::uint64_t received, const Statistics& s, const PartOutcome& outcome)
-        : particles(received),
+    MadePart(std::uint64_t part, std::uint64_t received, const Statistics& s, const PartOutcome& outcome)
+        : number(part),
+          particles(received),
           vertices(s.vertices),
           triangles_by_level(s.triangles_by_level),
           base_cells_by_level(s.base_cells_by_level),
@@ -53,6 +55,13 @@ struct MadePart {
         add_all(stage_seconds, o.stage_seconds);
         greatest_sample = std::max(greatest_sample, o.greatest_sample);
     }
+};
+
+/// A vertex on the border of a part.
+struct BorderVertex {
+    LatticePosition place{};
+    std::uint64_t part = 0;  ///< its number
+    auto operator<=>(const BorderVertex&) const = default;
 };
 
 /// A mesh's vertices on the faces of a box of bricks: those that other parts may have, too.

@@ -71,6 +71,24 @@ std::vector<std::byte> particles_within(const ParticleFrame& frame, const Box& b
     return message.take();
 }
 
+void PartParticles::begin(FrameForm form) {
+    form_ = std::move(form);
+    positions_.clear();
+    quantized_.clear();
+    levels_.clear();
+    arrays_.resize(form_.arrays.size());
+    for (std::vector<std::byte>& array : arrays_) array.clear();
+}
+
+void PartParticles::assign(const ParticleFrame& frame) {
+    begin(FrameForm(frame));
+    positions_.assign(frame.positions.begin(), frame.positions.end());
+    quantized_.assign(frame.quantized.begin(), frame.quantized.end());
+    levels_.assign(frame.levels.begin(), frame.levels.end());
+    for (std::size_t a = 0; a < arrays_.size(); ++a)
+        arrays_[a].assign(frame.arrays[a].data.begin(), frame.arrays[a].data.end());
+}
+
 void PartParticles::add(std::span<const std::byte> message) {
     if (message.empty()) return;
     MessageReader reader(message);

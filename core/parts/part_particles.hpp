@@ -35,18 +35,20 @@ struct FrameForm {
 /// The particles of a valid frame that lie within a closed box, world units, as a message.
 std::vector<std::byte> particles_within(const ParticleFrame& frame, const Box& box);
 
-/// Owns the arrays of a part's frame.
+/// Owns the arrays of a frame: of a part's, or of a copy. Keeps its memory from frame to frame.
 class PartParticles {
 public:
-    /// form: of the frames that the messages are from; those of none have no particles.
-    PartParticles(const FrameForm& form) : form_(form), arrays_(form.arrays.size()) {}
-
+    /// Forgets the particles. form: of the frames that come.
+    void begin(FrameForm form);
+    /// A message of particles_within(), of a frame of this form.
     void add(std::span<const std::byte> message);
+    /// A copy of the frame.
+    void assign(const ParticleFrame& frame);
     /// Lives as long as this.
     const ParticleFrame& frame();
 
 private:
-    const FrameForm& form_;
+    FrameForm form_;
     std::vector<float> positions_;
     std::vector<std::uint16_t> quantized_;
     std::vector<std::uint8_t> levels_;

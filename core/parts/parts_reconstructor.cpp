@@ -1,8 +1,11 @@
 // Parts in rounds: all are made, then those whose seams differ once more with twice the overlap, until none does.
 #include <algorithm>
 #include <chrono>
-#include <map>
+#include <exception>
+#include <numeric>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "meniscus/error.hpp"
 #include "meniscus/parts.hpp"
@@ -11,11 +14,12 @@
 #include "particles/seams.hpp"
 #include "particles/validation.hpp"
 #include "particles/warnings.hpp"
+#include "parts/agreement.hpp"
 #include "parts/compare_seams.hpp"
 #include "parts/frame_facts.hpp"
 #include "parts/made_part.hpp"
-#include "parts/message.hpp"
 #include "parts/part_particles.hpp"
+#include "parts/parts_told.hpp"
 #include "steps/fill_cracks/volume.hpp"
 
 namespace meniscus {
@@ -28,100 +32,133 @@ std::vector<PartExchange::Bytes> AloneExchange::gather(Bytes mine) {
 class PartsReconstructor::Impl {
 public:
     Impl(const Settings& settings, const BackendOptions& backend, const PartsOptions& options, PartExchange& exchange)
-        : reconstructor_(settings, backend), options_(options), exchange_(exchange), choice_(settings) {
+        : settings_(settings), options_(options), agreement_(exchange), choice_(settings) {
+        validate(settings);
         deal_bricks({}, options.parts);
         FramePart part;
         part.overlap = options.overlap;
         validate(part);
+        std::vector<std::size_t>& makers = options_.makers;
+        if (makers.empty())
+            for (std::size_t rank = 0; rank < exchange.ranks(); ++rank) makers.push_back(rank);
+        if (makers.back() >= exchange.ranks())
+            throw InvalidInput("parts are to be made by rank " + std::to_string(makers.back()) + ", but there are " +
+                               std::to_string(exchange.ranks()) + " ranks, from 0 on");
+        // A device, if there is one, is taken where it is needed alone.
+        if (std::find(makers.begin(), makers.end(), exchange.rank()) != makers.end())
+            reconstructor_.emplace(settings, backend);
     }
 
-    PartsReport reconstruct(const ParticleFrame& given, const PartSink& sink) {
-        // As a Reconstructor does, which passes over arrays that the frames before did not bring.
-        validate_lengths(given);
-        const std::vector<ParticleArray> arrays = choice_.of(given);
-        validate_places(given, settings());
-        ParticleFrame mine = given;
-        mine.sent = nullptr;
-        mine.arrays = arrays;
-        const FrameFacts facts = facts_together(exchange_.gather(packed(facts_of(mine))));
-        // All processes hold the next frames against the same arrays, also one that has brought none.
-        choice_.keep(facts.form.without_values());
+    enum class Particles { borrowed, copied };
 
-        own_ = deal_bricks(facts.loads, options_.parts);
-        overlaps_.assign(own_.size(), options_.overlap);
-        seams_.clear();
-        made_.clear();
-        borders_.clear();
-        report_ = {};
-        const auto start = std::chrono::steady_clock::now();
-        std::vector<std::size_t> wanted(own_.size());
-        for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = i;
-        while (!wanted.empty()) {
-            make(wanted, facts, mine, sink);
-            report_.parts_made += wanted.size();
-            const UnequalSeams unequal = compare_seams(all_seams(), own_);
-            report_.unequal_seams += unequal.count;
-            wanted = unequal.parts;
-            for (const std::size_t part : wanted) overlaps_[part] = std::min(2 * overlaps_[part], max_overlap);
+    /// given: stays until the frame is over where it is borrowed.
+    void begin(const ParticleFrame& given, Particles particles) {
+        start_ = std::chrono::steady_clock::now();
+        const auto of_ranks = agreement_.gather([&] {
+            // As a Reconstructor does, which passes over arrays that the frames before did not bring.
+            validate_lengths(given);
+            arrays_ = choice_.of(given);
+            mine_ = given;
+            mine_.sent = nullptr;
+            mine_.arrays = arrays_;
+            if (particles == Particles::copied) {
+                copy_.assign(mine_);
+                mine_ = copy_.frame();
+            }
+            validate_places(mine_, settings_);
+            return packed(facts_of(mine_));
+        });
+        bring([&] {
+            facts_ = facts_together(of_ranks);
+            // All processes hold the next frames against the same arrays, also one that has brought none.
+            choice_.keep(facts_.form.without_values());
+            own_ = deal_bricks(facts_.loads, options_.parts);
+            overlaps_.assign(own_.size(), options_.overlap);
+            told_ = {};
+            report_ = {};
+            error_ = nullptr;
+            wanted_.resize(own_.size());
+            std::iota(wanted_.begin(), wanted_.end(), std::size_t{0});
+            deal_turns();
+        });
+    }
+
+    void make(const PartSink& sink) noexcept {
+        if (turn_ >= mine_to_make_.size()) return;
+        try {
+            particles_.begin(facts_.form);
+            for (PartExchange::Bytes& bytes : from_) {
+                particles_.add(bytes);
+                bytes = {};
+            }
+            make_one(mine_to_make_[turn_], particles_.frame(), sink);
+        } catch (...) {
+            error_ = std::current_exception();
         }
-        report_.greatest_overlap = *std::max_element(overlaps_.begin(), overlaps_.end());
-        finish_report(facts, mine);
-        report_.whole.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        return report_;
     }
+
+    bool go_on() {
+        ++turn_;
+        if (turn_ == turns_) {
+            compare();
+            if (wanted_.empty()) {
+                finish_report();
+                return false;
+            }
+            deal_turns();
+        }
+        bring([&] { rethrow_error(); });
+        return true;
+    }
+
+    const PartsReport& report() const { return report_; }
 
 private:
-    const Settings& settings() const { return reconstructor_.settings(); }
-
     FrameFacts facts_of(const ParticleFrame& mine) const {
         FrameFacts facts;
         facts.form = FrameForm(mine);
         facts.by_level = count_levels(mine);
-        facts.loads = brick_loads(mine, settings());
-        facts.ranges = array_ranges(mine, settings());
+        facts.loads = brick_loads(mine, settings_);
+        facts.ranges = array_ranges(mine, settings_);
         return facts;
     }
 
-    std::size_t rank_of(std::size_t part) const { return part * exchange_.ranks() / own_.size(); }
+    std::size_t rank_of(std::size_t part) const { return options_.makers[part * options_.makers.size() / own_.size()]; }
 
     /// One part of each process at a time: of the particles near it there is one copy beside the frame.
-    void make(const std::vector<std::size_t>& wanted, const FrameFacts& facts, const ParticleFrame& mine,
-              const PartSink& sink) {
-        std::vector<std::vector<std::size_t>> of_rank(exchange_.ranks());
-        std::size_t turns = 0;
-        for (const std::size_t part : wanted) {
-            std::vector<std::size_t>& its = of_rank[rank_of(part)];
+    void deal_turns() {
+        of_rank_.assign(agreement_.ranks(), {});
+        turns_ = 0;
+        for (const std::size_t part : wanted_) {
+            std::vector<std::size_t>& its = of_rank_[rank_of(part)];
             its.push_back(part);
-            turns = std::max(turns, its.size());
+            turns_ = std::max(turns_, its.size());
         }
-        for (std::size_t turn = 0; turn < turns; ++turn) {
-            std::vector<PartExchange::Bytes> to(exchange_.ranks());
+        mine_to_make_ = of_rank_[agreement_.rank()];
+        turn_ = 0;
+    }
+
+    /// prepare: what this process does before, and may throw.
+    template <class Prepare>
+    void bring(const Prepare& prepare) {
+        from_ = agreement_.all_to_all([&] {
+            prepare();
+            std::vector<PartExchange::Bytes> to(agreement_.ranks());
             for (std::size_t rank = 0; rank < to.size(); ++rank)
-                if (turn < of_rank[rank].size())
+                if (turn_ < of_rank_[rank].size())
                     to[rank] = particles_within(
-                        mine, reach_of(part(of_rank[rank][turn], facts), settings(), facts.coarsest_level()));
-            std::vector<PartExchange::Bytes> from = exchange_.all_to_all(std::move(to));
-            if (turn >= of_rank[exchange_.rank()].size()) continue;
-            PartParticles particles(facts.form);
-            for (PartExchange::Bytes& bytes : from) {
-                particles.add(bytes);
-                bytes = {};
-            }
-            make_one(of_rank[exchange_.rank()][turn], facts, particles.frame(), sink);
-        }
+                        mine_, reach_of(part(of_rank_[rank][turn_]), settings_, facts_.coarsest_level()));
+            return to;
+        });
     }
 
-    FramePart part(std::size_t number, const FrameFacts& facts) const {
-        return {own_[number], overlaps_[number], facts.ranges};
-    }
+    FramePart part(std::size_t number) const { return {own_[number], overlaps_[number], facts_.ranges}; }
 
-    void make_one(std::size_t number, const FrameFacts& facts, const ParticleFrame& particles, const PartSink& sink) {
-        const FramePart its = part(number, facts);
-        PartOutcome outcome = reconstructor_.reconstruct_part(particles, its, mesh_);
-        const Statistics& statistics = reconstructor_.statistics();
-        made_[number] = MadePart(particles.count(), statistics, outcome);
-        seams_[number] = std::move(outcome.seams);
-        borders_[number] = border_vertices(mesh_, its.own);
+    void make_one(std::size_t number, const ParticleFrame& particles, const PartSink& sink) {
+        const FramePart its = part(number);
+        const PartOutcome outcome = reconstructor_->reconstruct_part(particles, its, mesh_);
+        const Statistics& statistics = reconstructor_->statistics();
+        told_.take(number, MadePart(number, particles.count(), statistics, outcome), outcome.seams, mesh_, its.own);
         report_.whole.peak_bytes = std::max(report_.whole.peak_bytes, statistics.peak_bytes);
         report_.whole.device_peak_bytes = std::max(report_.whole.device_peak_bytes, statistics.device_peak_bytes);
         report_.whole.backend = statistics.backend;
@@ -129,69 +166,81 @@ private:
         sink({number, its, mesh_, statistics});
     }
 
-    /// All processes' values.
-    template <class T>
-    std::vector<T> gathered(const std::vector<T>& mine) {
-        MessageWriter message;
-        message.add_all(std::span<const T>(mine));
-        std::vector<T> all;
-        for (const PartExchange::Bytes& bytes : exchange_.gather(message.take())) MessageReader(bytes).append_to(all);
-        return all;
+    void rethrow_error() {
+        if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
     }
 
-    std::vector<PartSeam> all_seams() {
-        std::vector<PartSeam> mine;
-        for (const auto& [number, seams] : seams_)
-            for (const Seam& seam : seams) mine.push_back({seam, number});
-        return gathered(mine);
+    /// Of all parts: those whose seams differ are wanted again.
+    void compare() {
+        const auto messages = agreement_.gather([&] {
+            rethrow_error();
+            return told_.packed();
+        });
+        agreement_.agree([&] {
+            all_ = {};
+            for (const PartExchange::Bytes& message : messages) all_.add(message);
+            report_.parts_made += wanted_.size();
+            UnequalSeams unequal = compare_seams(all_.seams, own_);
+            report_.unequal_seams += unequal.count;
+            wanted_ = std::move(unequal.parts);
+            for (const std::size_t part : wanted_) overlaps_[part] = std::min(2 * overlaps_[part], max_overlap);
+        });
     }
 
-    /// The number of vertices that a border's parts have more than once.
-    std::uint64_t repeated_vertices() {
-        std::vector<LatticePosition> mine;
-        for (const auto& [number, vertices] : borders_) mine.insert(mine.end(), vertices.begin(), vertices.end());
-        std::vector<LatticePosition> all = gathered(mine);
-        std::sort(all.begin(), all.end());
-        return static_cast<std::uint64_t>(all.end() - std::unique(all.begin(), all.end()));
-    }
-
-    void finish_report(const FrameFacts& facts, const ParticleFrame& mine) {
-        std::vector<MadePart> parts;
-        for (const auto& [number, figures] : made_) parts.push_back(figures);
-        MadePart sum;
-        for (const MadePart& part : gathered(parts)) sum.add(part);
+    void finish_report() {
+        const MadePart sum = all_.sum();
+        report_.greatest_overlap = *std::max_element(overlaps_.begin(), overlaps_.end());
         report_.particles_received = sum.particles;
+        report_.own_vertices = all_.own_vertices();
+        report_.ranges = all_.whole_ranges();
+        all_ = {};
         Statistics& whole = report_.whole;
-        whole.particles = facts.particles();
-        whole.particle_volume = volume_of(facts.by_level, settings());
-        whole.vertices = sum.vertices - repeated_vertices();
+        whole.particles = facts_.particles();
+        whole.particle_volume = volume_of(facts_.by_level, settings_);
+        whole.vertices = std::accumulate(report_.own_vertices.begin(), report_.own_vertices.end(), std::uint64_t{0});
         whole.triangles_by_level = sum.triangles_by_level;
         for (const std::uint64_t triangles : sum.triangles_by_level) whole.triangles += triangles;
         whole.base_cells_by_level = sum.base_cells_by_level;
-        whole.volume = world_volume(sum.sixfold_volume, world_cell_size(settings()), offset_bits(settings()));
+        whole.volume = world_volume(sum.sixfold_volume, world_cell_size(settings_), offset_bits(settings_));
         whole.spray_particles = sum.spray_particles;
         whole.vertices_without_particles = sum.vertices_without_particles;
         whole.field_evaluations = sum.field_evaluations;
         whole.stage_seconds = sum.stage_seconds;
-        if (exchange_.ranks() != 1) return;
+        whole.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        if (agreement_.ranks() != 1) return;
         // The whole frame is here.
-        const PlacedFrame placed(mine);
+        const PlacedFrame placed(mine_);
         find_warnings(
-            placed, facts.by_level, settings(), find_wrong_radius(placed, settings()),
+            placed, facts_.by_level, settings_, find_wrong_radius(placed, settings_),
             [&] { return sum.greatest_sample; }, whole);
     }
 
-    Reconstructor reconstructor_;
+    Settings settings_;
     PartsOptions options_;
-    PartExchange& exchange_;
+    Agreement agreement_;
     AttributeChoice choice_;
+    std::optional<Reconstructor> reconstructor_;  ///< of a maker
     Mesh mesh_;
+
+    // Of the frame that has begun:
+    std::chrono::steady_clock::time_point start_;
+    PartParticles copy_;
+    std::vector<ParticleArray> arrays_;
+    ParticleFrame mine_;  ///< borrows from the caller, or from the copy
+    FrameFacts facts_;
     std::vector<BrickBox> own_;
     std::vector<std::uint32_t> overlaps_;
-    std::map<std::size_t, std::vector<Seam>> seams_;  ///< of this process's parts, by number
-    std::map<std::size_t, MadePart> made_;
-    std::map<std::size_t, std::vector<LatticePosition>> borders_;  ///< see border_vertices()
     PartsReport report_;
+    PartsTold told_;  ///< by this process
+    PartsTold all_;   ///< by all
+    // Of the round:
+    std::vector<std::size_t> wanted_;  ///< the parts to make, in all processes
+    std::vector<std::vector<std::size_t>> of_rank_;
+    std::vector<std::size_t> mine_to_make_;
+    std::size_t turns_ = 0, turn_ = 0;
+    std::vector<PartExchange::Bytes> from_;  ///< the particles for this turn's part
+    PartParticles particles_;
+    std::exception_ptr error_;  ///< of make()
 };
 
 PartsReconstructor::PartsReconstructor(const Settings& settings, const BackendOptions& backend,
@@ -200,7 +249,26 @@ PartsReconstructor::PartsReconstructor(const Settings& settings, const BackendOp
 PartsReconstructor::~PartsReconstructor() = default;
 
 PartsReport PartsReconstructor::reconstruct(const ParticleFrame& mine, const PartSink& sink) {
-    return impl_->reconstruct(mine, sink);
+    impl_->begin(mine, Impl::Particles::borrowed);
+    do make(sink);
+    while (go_on());
+    return report();
+}
+
+void PartsReconstructor::begin(const ParticleFrame& mine) {
+    impl_->begin(mine, Impl::Particles::copied);
+}
+
+void PartsReconstructor::make(const PartSink& sink) noexcept {
+    impl_->make(sink);
+}
+
+bool PartsReconstructor::go_on() {
+    return impl_->go_on();
+}
+
+const PartsReport& PartsReconstructor::report() const {
+    return impl_->report();
 }
 
 }  // namespace meniscus

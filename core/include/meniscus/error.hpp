@@ -1,5 +1,5 @@
-// The two ways in which a request can be refused, a request that was asked to end, a part that a build lacks, and a GPU
-// that fails. Any other exception is a defect.
+// The two ways in which a request can be refused, a request that was asked to end, a part that a build lacks, a GPU
+// that fails, and a process beside this one that does. Any other exception is a defect.
 #pragma once
 
 #include <stdexcept>
@@ -29,6 +29,13 @@ public:
 class Stopped : public std::runtime_error {
 public:
     Stopped() : std::runtime_error("the reconstruction was stopped") {}
+};
+
+/// Another process of several that make one surface has failed, or this one has for another reason than those above. The
+/// message names its rank. All of them throw it together.
+class ProcessFailed : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
 };
 
 /// What is asked for needs a part that this library was built without. The message names both, and how to build it.

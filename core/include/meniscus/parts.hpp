@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "meniscus/attribute_coding.hpp"
 #include "meniscus/backend_options.hpp"
 #include "meniscus/mesh.hpp"
 #include "meniscus/part.hpp"
@@ -59,6 +60,7 @@ public:
 struct PartsOptions {
     std::size_t parts = 1;                    ///< of all processes together, 1 to max_parts
     std::uint32_t overlap = default_overlap;  ///< of a part that is made the first time, base cells
+    std::vector<std::size_t> makers{};        ///< ranks of the processes that make parts, ascending; empty: all
 };
 
 /// A part that has been made. It is made once more if a seam of it differs from that of the part beyond, and then takes
@@ -81,22 +83,40 @@ struct PartsReport {
     std::uint64_t parts_made = 0;          ///< those that were made once more counted again
     std::uint64_t unequal_seams = 0;       ///< seams that differed, all rounds together
     std::uint32_t greatest_overlap = 0;    ///< base cells
+    /// Of each part, by number, the vertices that no part before it has: they add up to the whole's.
+    std::vector<std::uint64_t> own_vertices;
+    std::vector<AttributeRange> ranges;  ///< of each attribute over all vertices; none without vertices
 };
 
 /// Reconstructs frames in parts; one in each process of an exchange, each with the same settings and options. A process
-/// makes its parts in turn: the parts are dealt to processes by their numbers.
+/// makes its parts in turn: the parts are dealt to the makers by their numbers.
+///
+/// Where one process throws, all throw, with its rank in the message; then the frame is over, and another may begin.
 class PartsReconstructor {
 public:
-    /// exchange: must stay. Throws InvalidInput as Reconstructor does, and for a number of parts or an overlap out of
-    /// range.
+    /// exchange: must stay. Throws InvalidInput as Reconstructor does, and for a number of parts, an overlap or makers
+    /// out of range.
     PartsReconstructor(const Settings& settings, const BackendOptions& backend, const PartsOptions& options,
                        PartExchange& exchange);
     ~PartsReconstructor();
 
     /// mine: the particles of this process, each once among all processes, wherever they are. sink: gets this process's
     /// parts. Throws as Reconstructor::reconstruct_part(), and InvalidInput where the processes' frames differ in their
-    /// encoding; other processes then wait for this one until the exchange ends them.
+    /// encoding.
     PartsReport reconstruct(const ParticleFrame& mine, const PartSink& sink);
+
+    // The same in steps, which may lie apart in time: begin(), then make() and go_on() in turn until there is nothing
+    // to make. All processes call begin() and go_on() together, one after the other; make() is each one's own, and any
+    // thread's.
+
+    /// Copies the particles, and brings the first ones to those that make parts of them.
+    void begin(const ParticleFrame& mine);
+    /// Makes a part of these particles, if this process has one to make now. What goes wrong is thrown by go_on().
+    void make(const PartSink& sink) noexcept;
+    /// Brings the particles for more parts, and returns true; once all are made and their seams are equal, false.
+    bool go_on();
+    /// Of the frame that has ended so.
+    const PartsReport& report() const;
 
 private:
     class Impl;

@@ -3,49 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <barrier>
+#include <cmath>
 #include <functional>
 #include <mutex>
-#include <thread>
+#include <stdexcept>
 
 #include "support/parts.hpp"
+#include "support/refusal.hpp"
+#include "support/thread_exchange.hpp"
 
 namespace meniscus {
 namespace {
-
-/// The place where threads that stand for processes exchange.
-class Meeting {
-public:
-    explicit Meeting(std::size_t ranks) : barrier_(static_cast<std::ptrdiff_t>(ranks)), given_(ranks) {}
-    std::size_t ranks() const { return given_.size(); }
-    /// Gives what one has for each of the others; returns what each has for this one.
-    std::vector<PartExchange::Bytes> exchange(std::size_t rank, std::vector<PartExchange::Bytes> to) {
-        given_[rank] = std::move(to);
-        barrier_.arrive_and_wait();
-        std::vector<PartExchange::Bytes> from;
-        for (const auto& its : given_) from.push_back(its[rank]);
-        barrier_.arrive_and_wait();
-        return from;
-    }
-
-private:
-    std::barrier<> barrier_;
-    std::vector<std::vector<PartExchange::Bytes>> given_;
-};
-
-class ThreadExchange final : public PartExchange {
-public:
-    ThreadExchange(Meeting& meeting, std::size_t rank) : meeting_(meeting), rank_(rank) {}
-    std::size_t rank() const override { return rank_; }
-    std::size_t ranks() const override { return meeting_.ranks(); }
-    std::vector<Bytes> gather(Bytes mine) override {
-        return meeting_.exchange(rank_, std::vector<Bytes>(ranks(), mine));
-    }
-    std::vector<Bytes> all_to_all(std::vector<Bytes> to) override { return meeting_.exchange(rank_, std::move(to)); }
-
-private:
-    Meeting& meeting_;
-    std::size_t rank_;
-};
 
 /// rank_of(particle)
 void expect_the_whole_of_processes(const Settings& settings, test::ParticlesWithArrays& all, std::size_t ranks,
@@ -66,22 +34,18 @@ void expect_the_whole_of_processes(const Settings& settings, test::ParticlesWith
             its.bytes[a].insert(its.bytes[a].end(), from, from + static_cast<std::ptrdiff_t>(size));
         }
     }
-    Meeting meeting(ranks);
     std::mutex mutex;
     test::FrameOfParts result;
     std::vector<PartsReport> reports(ranks);
-    std::vector<std::thread> processes;
-    for (std::size_t rank = 0; rank < ranks; ++rank)
-        processes.emplace_back([&, rank] {
-            ThreadExchange exchange(meeting, rank);
-            PartsReconstructor reconstructor(settings, {Backend::cpu, 1, 0}, {.parts = parts}, exchange);
-            const PartSink sink = result.sink();
-            reports[rank] = reconstructor.reconstruct(of_rank[rank].frame(), [&](const FinishedPart& part) {
+    test::on_ranks(ranks, [&](test::ThreadExchange& exchange) {
+        PartsReconstructor reconstructor(settings, {Backend::cpu, 1, 0}, {.parts = parts}, exchange);
+        const PartSink sink = result.sink();
+        reports[exchange.rank()] =
+            reconstructor.reconstruct(of_rank[exchange.rank()].frame(), [&](const FinishedPart& part) {
                 const std::lock_guard lock(mutex);
                 sink(part);
             });
-        });
-    for (std::thread& process : processes) process.join();
+    });
     Reconstructor reconstructor(settings, {Backend::cpu, 1, 0});
     Mesh whole;
     reconstructor.reconstruct(all.frame(), whole);
@@ -116,38 +80,56 @@ TEST(Processes, ChooseTheSameAttributesWhicheverHadParticlesFirst) {
     settings.all_attributes = true;
     const auto age = [](std::size_t i, std::size_t) { return static_cast<float>(i); };
     std::vector<test::ParticlesWithArrays> of_rank(2);
-    Meeting meeting(of_rank.size());
     std::mutex mutex;
     std::vector<test::FrameOfParts> results(2);
     std::barrier between(static_cast<std::ptrdiff_t>(of_rank.size()));
-    std::vector<std::thread> processes;
-    for (std::size_t rank = 0; rank < of_rank.size(); ++rank)
-        processes.emplace_back([&, rank] {
-            test::ParticlesWithArrays& mine = of_rank[rank];
-            ThreadExchange exchange(meeting, rank);
-            PartsReconstructor reconstructor(settings, {Backend::cpu, 1, 0}, {.parts = 2}, exchange);
-            for (std::size_t frame = 0; frame < results.size(); ++frame) {
-                if (rank == frame) mine.particles = test::splash(63, 8);
-                if (rank == 0 || frame == 1) {
-                    mine = {.particles = mine.particles, .names = {}, .arrays = {}, .bytes = {}};
-                    mine.add_floats("age", 1, age);
-                    if (frame == 1) mine.add_floats("pressure", 1, age);
-                }
-                const PartSink sink = results[frame].sink();
-                EXPECT_NO_THROW(reconstructor.reconstruct(mine.frame(), [&](const FinishedPart& part) {
-                    const std::lock_guard lock(mutex);
-                    sink(part);
-                }));
-                between.arrive_and_wait();
+    test::on_ranks(of_rank.size(), [&](test::ThreadExchange& exchange) {
+        const std::size_t rank = exchange.rank();
+        test::ParticlesWithArrays& mine = of_rank[rank];
+        PartsReconstructor reconstructor(settings, {Backend::cpu, 1, 0}, {.parts = 2}, exchange);
+        for (std::size_t frame = 0; frame < results.size(); ++frame) {
+            if (rank == frame) mine.particles = test::splash(63, 8);
+            if (rank == 0 || frame == 1) {
+                mine = {.particles = mine.particles, .names = {}, .arrays = {}, .bytes = {}};
+                mine.add_floats("age", 1, age);
+                if (frame == 1) mine.add_floats("pressure", 1, age);
             }
-        });
-    for (std::thread& process : processes) process.join();
+            const PartSink sink = results[frame].sink();
+            EXPECT_NO_THROW(reconstructor.reconstruct(mine.frame(), [&](const FinishedPart& part) {
+                const std::lock_guard lock(mutex);
+                sink(part);
+            }));
+            between.arrive_and_wait();
+        }
+    });
     for (const test::FrameOfParts& result : results) {
         const Mesh whole = result.whole();
         ASSERT_EQ(whole.attributes.size(), 1U);
         EXPECT_EQ(whole.attributes[0].name, "age");
         EXPECT_FALSE(whole.triangles.empty());
     }
+}
+
+TEST(Processes, AllThrowWhatOneOfThemMeetsAndGoOn) {
+    const test::Particles good = test::splash(64, 6);
+    test::Particles bad = good;
+    bad.positions[7] = NAN;
+    test::on_ranks(3, [&](test::ThreadExchange& exchange) {
+        PartsReconstructor reconstructor(test::default_settings(), {Backend::cpu, 1, 0}, {.parts = 3}, exchange);
+        const PartSink pass = [](const FinishedPart&) {};
+        const auto rank = exchange.rank();
+        const test::Particles none;
+        EXPECT_EQ(
+            test::refusal([&] { reconstructor.reconstruct((rank == 1 ? bad : none).frame(), pass); }).substr(0, 20),
+            "rank 1: particle 2 h");
+        EXPECT_EQ(test::refusal<ProcessFailed>([&] {
+                      reconstructor.reconstruct((rank == 0 ? good : none).frame(), [&](const FinishedPart&) {
+                          if (rank == 2) throw std::runtime_error("no room for the mesh");
+                      });
+                  }),
+                  "rank 2: no room for the mesh");
+        EXPECT_EQ(reconstructor.reconstruct((rank == 0 ? good : none).frame(), pass).whole.particles, good.count());
+    });
 }
 
 TEST(Processes, MendNoiseTogether) {

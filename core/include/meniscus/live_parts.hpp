@@ -1,0 +1,78 @@
+// Frames of a running simulation in parts, reconstructed beside it: processes exchange when the simulation calls, and
+// their threads make the parts between the calls. (core/README.md#beside-a-simulation)
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "meniscus/error.hpp"
+#include "meniscus/parts.hpp"
+
+namespace meniscus {
+
+/// What becomes of frames that come faster than they are reconstructed.
+enum class LivePolicy : std::uint8_t {
+    latest,       ///< they are left out, by all processes together: push() waits for no reconstruction
+    every_frame,  ///< none is lost: push() waits for the frame before
+};
+
+/// A process's part of a frame whose seams are all equal.
+struct LivePart {
+    std::uint64_t index = 0;
+    double simulation_time = 0.0;
+    const Mesh* mesh;  ///< null where the frame has fewer parts than there are makers
+    /// Of the part, such that all parts' add up to the whole frame's: what belongs to no part is counted by the first.
+    Statistics statistics;
+    const PartsReport& report;  ///< the whole frame's
+};
+
+/// Shows frames. Its functions are called in makers, on one thread at a time, which is not the caller's of push().
+class LivePublisher {
+public:
+    virtual ~LivePublisher() = default;
+    /// The frame is there when all makers have published their part of it. What is thrown is told by the next push(),
+    /// in all processes.
+    virtual void publish(const LivePart& part) = 0;
+    /// The publisher of some maker has failed: closes what is open.
+    virtual void abandon() noexcept = 0;
+    /// Whether no frame need be made now, since none could be published. Called on the thread of push().
+    virtual bool is_away() const noexcept { return false; }
+};
+
+/// A part could not be published. All processes throw it together, with the rank in the message.
+class PublishingFailed : public ProcessFailed {
+public:
+    using ProcessFailed::ProcessFailed;
+};
+
+/// One in each process of an exchange, each with the same settings and options. All functions are called by all
+/// processes together, in the same order; the exchange is used in them alone, on the thread that calls.
+///
+/// A frame's seams are compared in the push() after it, or in finish(): its parts are published then.
+class LiveParts {
+public:
+    /// exchange, publisher: must stay. options: as many parts as makers. Throws as PartsReconstructor.
+    LiveParts(const Settings& settings, const BackendOptions& backend, const PartsOptions& options, LivePolicy policy,
+              PartExchange& exchange, LivePublisher& publisher);
+    /// Waits for what is being made, without the others.
+    ~LiveParts();
+
+    /// mine: the particles of this process, which are copied. index: greater than the one before; index and time are
+    /// the same in all processes. False: the frame is left out, in all of them.
+    ///
+    /// What one process throws all throw, with its rank: InvalidInput for particles, an index or a time that cannot be,
+    /// and what the frame before has met, PublishingFailed among it. This frame is then left out, and the next may
+    /// come.
+    bool push(const ParticleFrame& mine, std::uint64_t index, double simulation_time);
+    /// Waits until all that was pushed has been published. Throws likewise.
+    void finish();
+    /// Frames left out so far.
+    std::uint64_t dropped() const;
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace meniscus

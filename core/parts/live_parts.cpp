@@ -1,0 +1,206 @@
+// Frames one after the other: one is made while the simulation goes on.
+#include "meniscus/live_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "meniscus/error.hpp"
+#include "parts/agreement.hpp"
+#include "parts/presence.hpp"
+#include "parts/worker.hpp"
+
+namespace meniscus {
+class LiveParts::Impl {
+public:
+    Impl(const Settings& settings, const BackendOptions& backend, const PartsOptions& options, LivePolicy policy,
+         PartExchange& exchange, LivePublisher& publisher)
+        : policy_(policy),
+          publisher_(publisher),
+          is_maker_(options.makers.empty() ||
+                    std::find(options.makers.begin(), options.makers.end(), exchange.rank()) != options.makers.end()),
+          parts_(settings, backend, options, exchange),
+          agreement_(exchange) {}
+
+    bool push(const ParticleFrame& given, std::uint64_t index, double simulation_time) {
+        const bool are_free = come_together({.index = index, .simulation_time = simulation_time}, [&] {
+            if (last_index_ && index <= *last_index_)
+                throw InvalidInput("frame index " + std::to_string(index) + " after " + std::to_string(*last_index_) +
+                                   "; indices must increase");
+            if (!std::isfinite(simulation_time))
+                throw InvalidInput("frame " + std::to_string(index) + ": simulation_time is " +
+                                   std::to_string(simulation_time) + "; it must be finite");
+        });
+        last_index_ = index;
+        if (!are_free || !settle(policy_ == LivePolicy::every_frame)) {
+            ++dropped_;
+            return false;
+        }
+        begin(given, {index, simulation_time});
+        return true;
+    }
+
+    void finish() {
+        while (!come_together({.ends = true}, [] {})) worker_.wait();
+        settle(true);
+        work(Making::nothing);
+        while (!come_together({.ends = true}, [] {})) worker_.wait();
+    }
+
+    std::uint64_t dropped() const { return dropped_; }
+
+private:
+    struct Frame {
+        std::uint64_t index = 0;
+        double simulation_time = 0.0;
+    };
+    /// The part that a maker has made last.
+    struct MadeMesh {
+        std::size_t part = 0;
+        Mesh mesh;
+        Statistics statistics;
+    };
+
+    /// Whether all processes are free for a frame. check: of this one. Throws in all what one of them has met.
+    template <class Check>
+    bool come_together(Presence mine, const Check& check) {
+        if (policy_ == LivePolicy::every_frame) worker_.wait();
+        std::vector<Presence> all;
+        for (const PartExchange::Bytes& bytes : agreement_.gather([&] {
+                 check();
+                 mine.is_at_work = !worker_.is_idle();
+                 if (!mine.is_at_work) mine.failure = failure_;
+                 mine.is_away = is_maker_ && !mine.ends && publisher_.is_away();
+                 return packed(mine);
+             }))
+            all.push_back(unpacked_presence(bytes));
+        require_one_frame(all);
+        const auto is_one = [&all](bool Presence::*member) {
+            return std::any_of(all.begin(), all.end(), [member](const Presence& its) { return its.*member; });
+        };
+        // A failure is told once nobody is at work: all can then close what is open.
+        if (is_one(&Presence::is_at_work)) return false;
+        const auto failed =
+            std::find_if(all.begin(), all.end(), [](const Presence& its) { return !its.failure.empty(); });
+        if (failed != all.end()) fail("rank " + std::to_string(failed - all.begin()) + ": " + failed->failure);
+        return !is_one(&Presence::is_away);
+    }
+
+    [[noreturn]] void fail(const std::string& what) {
+        failure_.clear();
+        if (is_maker_) worker_.start([this] { publisher_.abandon(); });
+        throw PublishingFailed(what);
+    }
+
+    /// Whether the frame that was begun, if there is one, has equal seams. waits: until it has; else its parts are made
+    /// again meanwhile.
+    bool settle(bool waits) {
+        if (!begun_) return true;
+        try {
+            while (parts_.go_on()) {
+                work(Making::again);
+                if (!waits) return false;
+                worker_.wait();
+            }
+        } catch (...) {
+            begun_.reset();
+            throw;
+        }
+        settled_ = std::exchange(begun_, std::nullopt);
+        report_ = parts_.report();
+        return true;
+    }
+
+    void begin(const ParticleFrame& given, const Frame& frame) {
+        try {
+            parts_.begin(given);
+        } catch (...) {
+            work(Making::nothing);
+            throw;
+        }
+        begun_ = frame;
+        work(Making::anew);
+    }
+
+    enum class Making { nothing, again, anew };
+
+    /// Publishes the frame that has settled, if there is one; then makes.
+    void work(Making making) {
+        const std::optional<Frame> frame = std::exchange(settled_, std::nullopt);
+        if (!is_maker_ || (!frame && making == Making::nothing)) return;
+        worker_.start([this, frame, making] {
+            if (frame) publish(*frame);
+            if (making == Making::nothing) return;
+            if (making == Making::anew) has_part_ = false;
+            parts_.make([this](const FinishedPart& part) {
+                made_.part = part.number;
+                std::swap(made_.mesh, part.mesh);
+                made_.statistics = part.statistics;
+                has_part_ = true;
+            });
+        });
+    }
+
+    /// What belongs to no part counts in the first.
+    static Statistics share_of(const PartsReport& report, const MadeMesh& made) {
+        const bool is_first = made.part == 0;
+        Statistics statistics = made.statistics;
+        statistics.particles = is_first ? report.whole.particles : 0;
+        statistics.particle_volume = is_first ? report.whole.particle_volume : 0.0;
+        statistics.volume = is_first ? report.whole.volume : 0.0;
+        statistics.vertices = report.own_vertices[made.part];
+        return statistics;
+    }
+
+    void publish(const Frame& frame) {
+        try {
+            LivePart part{frame.index, frame.simulation_time, nullptr, {}, report_};
+            if (has_part_) {
+                part.mesh = &made_.mesh;
+                part.statistics = share_of(report_, made_);
+            }
+            publisher_.publish(part);
+        } catch (const std::exception& error) {
+            failure_ = error.what();
+        } catch (...) {
+            failure_ = "an exception that is none of this library's";
+        }
+    }
+
+    LivePolicy policy_;
+    LivePublisher& publisher_;
+    bool is_maker_;
+    PartsReconstructor parts_;
+    Agreement agreement_;
+    std::optional<std::uint64_t> last_index_;
+    std::uint64_t dropped_ = 0;
+    std::optional<Frame> begun_;    ///< is being made
+    std::optional<Frame> settled_;  ///< is to be published
+    PartsReport report_;            ///< of the frame that has settled
+    // The worker's, while it is at work:
+    MadeMesh made_;
+    bool has_part_ = false;  ///< whether it is of the frame
+    std::string failure_;    ///< of the publisher; empty: none
+    Worker worker_;          ///< goes first
+};
+
+LiveParts::LiveParts(const Settings& settings, const BackendOptions& backend, const PartsOptions& options,
+                     LivePolicy policy, PartExchange& exchange, LivePublisher& publisher)
+    : impl_(std::make_unique<Impl>(settings, backend, options, policy, exchange, publisher)) {}
+LiveParts::~LiveParts() = default;
+
+bool LiveParts::push(const ParticleFrame& mine, std::uint64_t index, double simulation_time) {
+    return impl_->push(mine, index, simulation_time);
+}
+
+void LiveParts::finish() {
+    impl_->finish();
+}
+
+std::uint64_t LiveParts::dropped() const {
+    return impl_->dropped();
+}
+
+}  // namespace meniscus

@@ -1,0 +1,41 @@
+// What each process tells of the parts that it has made, for the comparison of seams and for the whole's figures.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "meniscus/attribute_coding.hpp"
+#include "meniscus/parts.hpp"
+#include "parts/compare_seams.hpp"
+#include "parts/made_part.hpp"
+
+namespace meniscus {
+
+/// The range of an attribute over a part's vertices.
+struct PartRange {
+    std::uint64_t part = 0;       ///< its number
+    std::uint64_t attribute = 0;  ///< its place among the mesh's
+    AttributeRange range;
+};
+
+struct PartsTold {
+    std::vector<PartSeam> seams;
+    std::vector<MadePart> made;
+    std::vector<BorderVertex> border;
+    std::vector<PartRange> ranges;
+
+    /// A part that has been made once more takes the place of what it was.
+    void take(std::uint64_t part, const MadePart& figures, const std::vector<Seam>& its_seams, const Mesh& mesh,
+              const BrickBox& own);
+    /// Takes what another process tells.
+    void add(const PartExchange::Bytes& message);
+    PartExchange::Bytes packed() const;
+
+    MadePart sum() const;
+    /// Of each part, the vertices that no part before it has.
+    std::vector<std::uint64_t> own_vertices() const;
+    /// Of each attribute over all vertices; none without vertices.
+    std::vector<AttributeRange> whole_ranges() const;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,291 @@
+// Frames in parts beside simulations, whose ranks are threads here: each is published whole, or by none.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+
+#include "meniscus/live_parts.hpp"
+#include "support/parts.hpp"
+#include "support/refusal.hpp"
+#include "support/thread_exchange.hpp"
+
+namespace meniscus {
+namespace {
+
+/// What all ranks have published.
+class Shown {
+public:
+    struct Frame {
+        double simulation_time = 0.0;
+        std::size_t publishers = 0;
+        std::vector<Mesh> meshes;
+        Statistics sum;
+    };
+    void add(const LivePart& part) {
+        const std::lock_guard lock(mutex_);
+        Frame& frame = frames_[part.index];
+        ++frame.publishers;
+        frame.simulation_time = part.simulation_time;
+        if (part.mesh == nullptr) return;
+        frame.meshes.push_back(*part.mesh);
+        frame.sum.particles += part.statistics.particles;
+        frame.sum.vertices += part.statistics.vertices;
+        frame.sum.triangles += part.statistics.triangles;
+        frame.sum.volume += part.statistics.volume;
+    }
+    const std::map<std::uint64_t, Frame>& frames() const { return frames_; }
+    std::set<std::uint64_t> indices() const {
+        std::set<std::uint64_t> indices;
+        for (const auto& [index, frame] : frames_) indices.insert(index);
+        return indices;
+    }
+
+private:
+    std::mutex mutex_;
+    std::map<std::uint64_t, Frame> frames_;
+};
+
+/// Adds what it is given to what is shown.
+class Publisher : public LivePublisher {
+public:
+    explicit Publisher(Shown& shown) : shown_(shown) {}
+    void publish(const LivePart& part) override { shown_.add(part); }
+    void abandon() noexcept override { ++abandoned; }
+
+    std::atomic<int> abandoned = 0;
+
+private:
+    Shown& shown_;
+};
+
+test::Particles frame_of(std::uint64_t index) {
+    return test::splash(static_cast<unsigned>(70 + index), 8);
+}
+
+/// Dealt at random, and otherwise in each frame.
+test::Particles share_of(const test::Particles& all, std::uint64_t index, std::size_t rank, std::size_t ranks) {
+    std::mt19937 random(static_cast<unsigned>(index));
+    test::Particles mine;
+    for (std::size_t i = 0; i < all.count(); ++i)
+        if (random() % ranks == rank)
+            mine.add(all.positions[3 * i], all.positions[3 * i + 1], all.positions[3 * i + 2]);
+    return mine;
+}
+
+Settings settings_of_parts() {
+    Settings settings = test::default_settings();
+    settings.cell_size = 0.25;
+    return settings;
+}
+
+LiveParts live(const PartsOptions& options, LivePolicy policy, PartExchange& exchange, LivePublisher& publisher) {
+    return {settings_of_parts(), {Backend::cpu, 1, 0}, options, policy, exchange, publisher};
+}
+
+void expect_whole(const Settings& settings, const test::Particles& particles, const Shown::Frame& frame) {
+    Reconstructor reconstructor(settings, {Backend::cpu, 1, 0});
+    Mesh whole;
+    reconstructor.reconstruct(particles.frame(), whole);
+    EXPECT_EQ(mesh_sha256(put_together(frame.meshes)), mesh_sha256(whole));
+    EXPECT_EQ(frame.sum.particles, particles.count());
+    EXPECT_EQ(frame.sum.vertices, whole.vertices.size());
+    EXPECT_EQ(frame.sum.triangles, whole.triangles.size());
+    EXPECT_EQ(frame.sum.volume, reconstructor.statistics().volume);
+}
+
+TEST(LiveParts, PublishTheWholesMeshOfEachFrameWhoeverMakesIt) {
+    const std::vector<std::pair<std::size_t, std::vector<std::size_t>>> deals{
+        {1, {0}}, {2, {0, 1}}, {3, {0}}, {4, {1, 3}}, {3, {0, 1, 2}}};
+    for (const auto& [ranks, makers] : deals) {
+        SCOPED_TRACE(testing::Message() << ranks << " ranks, " << makers.size() << " makers");
+        Shown shown;
+        test::on_ranks(ranks, [&, &among = ranks, &makes = makers](test::ThreadExchange& exchange) {
+            Publisher publisher(shown);
+            LiveParts parts =
+                live({.parts = makes.size(), .makers = makes}, LivePolicy::every_frame, exchange, publisher);
+            for (std::uint64_t i = 0; i < 3; ++i)
+                EXPECT_TRUE(parts.push(share_of(frame_of(i), i, exchange.rank(), among).frame(), 10 * i,
+                                       0.5 * static_cast<double>(i)));
+            parts.finish();
+            EXPECT_EQ(parts.dropped(), 0U);
+        });
+        ASSERT_EQ(shown.indices(), (std::set<std::uint64_t>{0, 10, 20}));
+        for (const auto& [index, frame] : shown.frames()) {
+            EXPECT_EQ(frame.publishers, makers.size());
+            EXPECT_EQ(frame.simulation_time, 0.05 * static_cast<double>(index));
+            expect_whole(settings_of_parts(), frame_of(index / 10), frame);
+        }
+    }
+}
+
+TEST(LiveParts, PublishNoPartBeforeSeamsAreEqual) {
+    const test::Particles noise = test::noise_cube(62, 6000, 0.5, 0.025);
+    Shown shown;
+    std::atomic<std::uint64_t> unequal = 0;
+    test::on_ranks(4, [&](test::ThreadExchange& exchange) {
+        class Counting : public Publisher {
+        public:
+            Counting(Shown& shown, std::atomic<std::uint64_t>& unequal) : Publisher(shown), unequal_(unequal) {}
+            void publish(const LivePart& part) override {
+                unequal_ = part.report.unequal_seams;
+                Publisher::publish(part);
+            }
+
+        private:
+            std::atomic<std::uint64_t>& unequal_;
+        } publisher(shown, unequal);
+        LiveParts parts(test::default_settings(), {Backend::cpu, 1, 0}, {.parts = 4, .overlap = 1},
+                        LivePolicy::every_frame, exchange, publisher);
+        EXPECT_TRUE(parts.push(share_of(noise, 0, exchange.rank(), 4).frame(), 0, 0.0));
+        parts.finish();
+    });
+    EXPECT_GT(unequal, 0U);
+    ASSERT_EQ(shown.frames().size(), 1U);
+    expect_whole(test::default_settings(), noise, shown.frames().at(0));
+}
+
+/// Holds the first frame until it is let go.
+class Held : public Publisher {
+public:
+    using Publisher::Publisher;
+    void publish(const LivePart& part) override {
+        std::unique_lock lock(mutex_);
+        is_holding_ = true;
+        changed_.notify_all();
+        changed_.wait(lock, [this] { return is_let_go_; });
+        Publisher::publish(part);
+    }
+    void await() {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [this] { return is_holding_; });
+    }
+    void let_go() {
+        const std::lock_guard lock(mutex_);
+        is_let_go_ = true;
+        changed_.notify_all();
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool is_holding_ = false, is_let_go_ = false;
+};
+
+TEST(LiveParts, LeaveOutFramesOfAllWhileOneIsAtWork) {
+    Shown shown;
+    Held held(shown);
+    test::on_ranks(3, [&](test::ThreadExchange& exchange) {
+        Publisher free(shown);
+        const bool is_held = exchange.rank() == 1;
+        LivePublisher& publisher = is_held ? static_cast<LivePublisher&>(held) : free;
+        LiveParts parts = live({.parts = 3}, LivePolicy::latest, exchange, publisher);
+        std::uint64_t index = 0;
+        const auto push = [&] {
+            const std::uint64_t i = index++;
+            return parts.push(share_of(frame_of(i), i, exchange.rank(), 3).frame(), i, 0.0);
+        };
+        EXPECT_TRUE(push());
+        // The first frame is published once a second one is begun, however long the first takes.
+        while (!push()) {
+        }
+        if (is_held) held.await();
+        const std::uint64_t dropped = parts.dropped();
+        for (int i = 0; i < 5; ++i) EXPECT_FALSE(push());
+        EXPECT_EQ(parts.dropped(), dropped + 5);
+        if (is_held) held.let_go();
+        while (!push()) {
+        }
+        parts.finish();
+        EXPECT_EQ(parts.dropped() + 3, index);
+    });
+    EXPECT_EQ(shown.frames().size(), 3U);
+    for (const auto& [index, frame] : shown.frames()) {
+        EXPECT_EQ(frame.publishers, 3U);
+        expect_whole(settings_of_parts(), frame_of(index), frame);
+    }
+}
+
+TEST(LiveParts, TellTheFailureOfAPublisherToAllAndGoOn) {
+    class Failing : public Publisher {
+    public:
+        using Publisher::Publisher;
+        void publish(const LivePart& part) override {
+            if (part.index == 1) throw std::runtime_error("the server is away");
+            Publisher::publish(part);
+        }
+    };
+    Shown shown;
+    test::on_ranks(3, [&](test::ThreadExchange& exchange) {
+        Publisher good(shown);
+        Failing bad(shown);
+        Publisher& publisher = exchange.rank() == 2 ? bad : good;
+        LiveParts parts = live({.parts = 2, .makers = {0, 2}}, LivePolicy::every_frame, exchange, publisher);
+        const auto push = [&](std::uint64_t i) {
+            return parts.push(share_of(frame_of(i), i, exchange.rank(), 3).frame(), i, 0.0);
+        };
+        for (std::uint64_t i = 0; i < 3; ++i) EXPECT_TRUE(push(i));
+        EXPECT_EQ(test::refusal<PublishingFailed>([&] { push(3); }), "rank 2: the server is away");
+        EXPECT_TRUE(push(4));
+        parts.finish();
+        EXPECT_EQ(publisher.abandoned, exchange.rank() == 1 ? 0 : 1);
+    });
+    EXPECT_EQ(shown.indices(), (std::set<std::uint64_t>{0, 1, 2, 4}));
+    EXPECT_EQ(shown.frames().at(1).publishers, 1U);
+    for (const std::uint64_t index : {0U, 2U, 4U}) {
+        EXPECT_EQ(shown.frames().at(index).publishers, 2U);
+        expect_whole(settings_of_parts(), frame_of(index), shown.frames().at(index));
+    }
+}
+
+TEST(LiveParts, MakeNoFramesWhileAPublisherIsAway) {
+    class Away : public Publisher {
+    public:
+        using Publisher::Publisher;
+        bool is_away() const noexcept override { return true; }
+    };
+    Shown shown;
+    test::on_ranks(2, [&](test::ThreadExchange& exchange) {
+        Publisher good(shown);
+        Away bad(shown);
+        LiveParts parts = live({.parts = 2}, LivePolicy::every_frame, exchange,
+                               exchange.rank() == 1 ? static_cast<LivePublisher&>(bad) : good);
+        EXPECT_FALSE(parts.push(frame_of(0).frame(), 0, 0.0));
+        parts.finish();
+    });
+    EXPECT_TRUE(shown.frames().empty());
+}
+
+TEST(LiveParts, RefuseOnAllRanksWhatOneMustNotPushAndPublishTheFrameBefore) {
+    Shown shown;
+    test::Particles bad = frame_of(1);
+    bad.positions[4] = INFINITY;
+    test::on_ranks(2, [&](test::ThreadExchange& exchange) {
+        Publisher publisher(shown);
+        LiveParts parts = live({.parts = 2}, LivePolicy::every_frame, exchange, publisher);
+        const bool is_second = exchange.rank() == 1;
+        EXPECT_TRUE(parts.push(share_of(frame_of(0), 0, exchange.rank(), 2).frame(), 5, 0.0));
+        EXPECT_EQ(
+            test::refusal([&] { parts.push((is_second ? bad : test::Particles()).frame(), 6, 0.0); }).substr(0, 18),
+            "rank 1: particle 1");
+        EXPECT_EQ(test::refusal([&] { parts.push({}, 6, 0.0); }),
+                  "rank 0: frame index 6 after 6; indices must increase");
+        EXPECT_EQ(test::refusal([&] { parts.push({}, is_second ? 8 : 7, 0.0); }),
+                  "rank 1 pushes frame 8 at time 0.000000, and rank 0 pushes frame 7 at time 0.000000: all must do the "
+                  "same");
+        EXPECT_EQ(test::refusal([&] { parts.push({}, 9, is_second ? NAN : 0.0); }),
+                  "rank 1: frame 9: simulation_time is nan; it must be finite");
+        EXPECT_TRUE(parts.push(share_of(frame_of(9), 9, exchange.rank(), 2).frame(), 9, 0.0));
+        parts.finish();
+    });
+    ASSERT_EQ(shown.indices(), (std::set<std::uint64_t>{5, 9}));
+    expect_whole(settings_of_parts(), frame_of(0), shown.frames().at(5));
+    expect_whole(settings_of_parts(), frame_of(9), shown.frames().at(9));
+}
+
+}  // namespace
+}  // namespace meniscus
