@@ -1,5 +1,6 @@
 // Boxes of bricks for parts, by recursive bisection.
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <string>
 
@@ -7,6 +8,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/parts.hpp"
 #include "particles/positions.hpp"
+#include "parts/brick_counts.hpp"
 
 namespace meniscus {
 namespace {
@@ -89,36 +91,21 @@ void deal(Loads loads, const BrickBox& box, std::size_t parts, std::vector<Brick
 
 std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& settings) {
     const PositionsView positions = positions_view(frame, units_per_cell / world_cell_size(settings));
-    constexpr std::int64_t edge = std::int64_t{units_per_base_cell} * brick_size;
-    std::vector<std::uint64_t> keys;
-    std::vector<BrickLoad> loads;
-    const auto brick = [&](std::int64_t unit) { return static_cast<std::int32_t>(floor_div(unit, edge)); };
-    const auto add_keys = [&] {
-        std::sort(keys.begin(), keys.end());
-        std::vector<BrickLoad> merged;
-        auto known = loads.begin();
-        const auto key_of = [](const BrickLoad& l) { return brick_key({l.brick[0], l.brick[1], l.brick[2]}); };
-        for (auto key = keys.begin(); key != keys.end();) {
-            const auto end = std::upper_bound(key, keys.end(), *key);
-            for (; known != loads.end() && key_of(*known) < *key; ++known) merged.push_back(*known);
-            const Int3 at = brick_coordinate(*key);
-            BrickLoad load{{at.x, at.y, at.z}, static_cast<std::uint64_t>(end - key)};
-            if (known != loads.end() && key_of(*known) == *key) load.particles += (known++)->particles;
-            merged.push_back(load);
-            key = end;
-        }
-        merged.insert(merged.end(), known, loads.end());
-        loads = std::move(merged);
-        keys.clear();
-    };
-    // Some at a time: a key for each particle would be as large as half of the frame.
-    constexpr std::size_t at_once = std::size_t{1} << 20;
+    constexpr auto edge = static_cast<std::uint64_t>(units_per_base_cell * brick_size);
+    static_assert(std::has_single_bit(edge));
+    const auto brick = [&](std::int64_t unit) { return static_cast<std::int32_t>(unit >> std::countr_zero(edge)); };
+    BrickCounts counts;
     for (std::size_t i = 0; i < frame.count(); ++i) {
         const Units3 p = positions.snapped(i);
-        keys.push_back(brick_key({brick(p.x), brick(p.y), brick(p.z)}));
-        if (keys.size() == at_once) add_keys();
+        counts.add(brick_key({brick(p.x), brick(p.y), brick(p.z)}));
     }
-    add_keys();
+    std::vector<BrickCounts::Count> all = counts.take();
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
+    std::vector<BrickLoad> loads;
+    for (const BrickCounts::Count& count : all) {
+        const Int3 at = brick_coordinate(count.key);
+        loads.push_back({{at.x, at.y, at.z}, count.particles});
+    }
     return loads;
 }
 

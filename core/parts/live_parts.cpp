@@ -24,7 +24,7 @@ public:
           parts_(settings, backend, options, exchange),
           agreement_(exchange) {}
 
-    bool push(const ParticleFrame& given, std::uint64_t index, double simulation_time) {
+    bool push(const FrameGiver& given, std::uint64_t index, double simulation_time) {
         const bool are_free = come_together({.index = index, .simulation_time = simulation_time}, [&] {
             if (last_index_ && index <= *last_index_)
                 throw InvalidInput("frame index " + std::to_string(index) + " after " + std::to_string(*last_index_) +
@@ -72,7 +72,7 @@ private:
                  check();
                  mine.is_at_work = !worker_.is_idle();
                  if (!mine.is_at_work) mine.failure = failure_;
-                 mine.is_away = is_maker_ && !mine.ends && publisher_.is_away();
+                 mine.is_away = !mine.is_at_work && is_maker_ && !mine.ends && publisher_.is_away();
                  return packed(mine);
              }))
             all.push_back(unpacked_presence(bytes));
@@ -113,7 +113,7 @@ private:
         return true;
     }
 
-    void begin(const ParticleFrame& given, const Frame& frame) {
+    void begin(const FrameGiver& given, const Frame& frame) {
         try {
             parts_.begin(given);
         } catch (...) {
@@ -191,7 +191,7 @@ LiveParts::LiveParts(const Settings& settings, const BackendOptions& backend, co
     : impl_(std::make_unique<Impl>(settings, backend, options, policy, exchange, publisher)) {}
 LiveParts::~LiveParts() = default;
 
-bool LiveParts::push(const ParticleFrame& mine, std::uint64_t index, double simulation_time) {
+bool LiveParts::push(const FrameGiver& mine, std::uint64_t index, double simulation_time) {
     return impl_->push(mine, index, simulation_time);
 }
 

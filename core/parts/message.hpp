@@ -28,6 +28,30 @@ public:
         add(static_cast<std::uint64_t>(values.size()));
         add_bytes(values.data(), values.size_bytes());
     }
+    /// Of values that have `count` numbers each, some, by their places.
+    template <class Number>
+    void add_some(std::span<const Number> values, std::size_t count, std::span<const std::uint32_t> chosen) {
+        add(static_cast<std::uint64_t>(chosen.size() * count));
+        const std::size_t size = count * sizeof(Number);
+        const std::size_t before = bytes_.size();
+        bytes_.resize(before + chosen.size() * size);
+        const auto copy = [&](auto known_size) {
+            std::byte* to = bytes_.data() + before;
+            const auto* const from = reinterpret_cast<const std::byte*>(values.data());
+            for (const std::uint32_t i : chosen) {
+                std::memcpy(to, from + i * known_size(), known_size());
+                to += known_size();
+            }
+        };
+        // A copy of a size that the compiler knows is an instruction or two.
+        if (size == 12)
+            copy([] { return std::size_t{12}; });
+        else if (size == 4)
+            copy([] { return std::size_t{4}; });
+        else
+            copy([size] { return size; });
+    }
+    void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
     void add_text(std::string_view text) { add_all(std::span<const char>(text)); }
     std::vector<std::byte> take() { return std::move(bytes_); }
 

@@ -1,7 +1,8 @@
 // Particles near a part, by the place that a position decodes to.
 #include "parts/part_particles.hpp"
 
-#include "particles/positions.hpp"
+#include <type_traits>
+
 #include "parts/message.hpp"
 
 namespace meniscus {
@@ -19,29 +20,17 @@ public:
                static_cast<double>(frame_.quantized[3 * particle + axis]) * (max[axis] - min[axis]) / 65535.0;
     }
     bool are_in(std::size_t particle, const Box& box) const {
+        bool are_in = true;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double x = coordinate(particle, axis);
-            if (x < box.min[axis] || x > box.max[axis]) return false;
+            are_in = are_in & (x >= box.min[axis]) & (x <= box.max[axis]);
         }
-        return true;
+        return are_in;
     }
 
 private:
     const ParticleFrame& frame_;
 };
-
-/// The values of the chosen particles, `count` for each.
-template <class T>
-void add_chosen(MessageWriter& message, std::span<const T> values, std::size_t count,
-                std::span<const std::uint32_t> chosen) {
-    std::vector<T> some;
-    some.reserve(values.empty() ? 0 : chosen.size() * count);
-    for (const std::uint32_t i : chosen)
-        if (!values.empty())
-            some.insert(some.end(), values.begin() + static_cast<std::ptrdiff_t>(i * count),
-                        values.begin() + static_cast<std::ptrdiff_t>((i + std::size_t{1}) * count));
-    message.add_all(std::span<const T>(some));
-}
 
 }  // namespace
 
@@ -59,15 +48,30 @@ std::vector<ParticleArray> FrameForm::without_values() const {
 
 std::vector<std::byte> particles_within(const ParticleFrame& frame, const Box& box) {
     const Places places(frame);
-    std::vector<std::uint32_t> chosen;
-    for (std::size_t i = 0; i < frame.count(); ++i)
-        if (places.are_in(i, box)) chosen.push_back(static_cast<std::uint32_t>(i));
+    std::vector<std::uint32_t> chosen(frame.count());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < frame.count(); ++i) {
+        chosen[count] = static_cast<std::uint32_t>(i);
+        count += places.are_in(i, box) ? 1 : 0;
+    }
+    chosen.resize(count);
     MessageWriter message;
     if (chosen.empty()) return message.take();
-    add_chosen(message, frame.positions, 3, chosen);
-    add_chosen(message, frame.quantized, 3, chosen);
-    add_chosen(message, frame.levels, 1, chosen);
-    for (const ParticleArray& array : frame.arrays) add_chosen(message, array.data, array.element_bytes(), chosen);
+    // With the counts of the arrays, and a byte for who sends it.
+    std::size_t bytes = (frame.arrays.size() + 3) * sizeof(std::uint64_t) + 1;
+    const auto each = [](const auto& values) { return values.empty() ? 0 : sizeof values[0]; };
+    bytes += count * (3 * (each(frame.positions) + each(frame.quantized)) + each(frame.levels));
+    for (const ParticleArray& array : frame.arrays) bytes += count * array.element_bytes();
+    message.reserve(bytes);
+    const auto add = [&](const auto& values, std::size_t numbers) {
+        using Number = std::remove_cvref_t<decltype(values[0])>;
+        const std::span<const std::uint32_t> those = values.empty() ? std::span<const std::uint32_t>() : chosen;
+        message.add_some(std::span<const Number>(values), numbers, those);
+    };
+    add(frame.positions, 3);
+    add(frame.quantized, 3);
+    add(frame.levels, 1);
+    for (const ParticleArray& array : frame.arrays) add(array.data, array.element_bytes());
     return message.take();
 }
 

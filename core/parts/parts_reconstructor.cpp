@@ -51,10 +51,11 @@ public:
 
     enum class Particles { borrowed, copied };
 
-    /// given: stays until the frame is over where it is borrowed.
-    void begin(const ParticleFrame& given, Particles particles) {
+    /// What is given stays until the frame is over where it is borrowed.
+    void begin(const FrameGiver& give, Particles particles) {
         start_ = std::chrono::steady_clock::now();
         const auto of_ranks = agreement_.gather([&] {
+            const ParticleFrame given = give();
             // As a Reconstructor does, which passes over arrays that the frames before did not bring.
             validate_lengths(given);
             arrays_ = choice_.of(given);
@@ -249,13 +250,13 @@ PartsReconstructor::PartsReconstructor(const Settings& settings, const BackendOp
 PartsReconstructor::~PartsReconstructor() = default;
 
 PartsReport PartsReconstructor::reconstruct(const ParticleFrame& mine, const PartSink& sink) {
-    impl_->begin(mine, Impl::Particles::borrowed);
+    impl_->begin([&mine] { return mine; }, Impl::Particles::borrowed);
     do make(sink);
     while (go_on());
     return report();
 }
 
-void PartsReconstructor::begin(const ParticleFrame& mine) {
+void PartsReconstructor::begin(const FrameGiver& mine) {
     impl_->begin(mine, Impl::Particles::copied);
 }
 

@@ -36,7 +36,8 @@ public:
     virtual void publish(const LivePart& part) = 0;
     /// The publisher of some maker has failed: closes what is open.
     virtual void abandon() noexcept = 0;
-    /// Whether no frame need be made now, since none could be published. Called on the thread of push().
+    /// Whether no frame need be made now, since none could be published. Called by push(), while neither of
+    /// the others runs.
     virtual bool is_away() const noexcept { return false; }
 };
 
@@ -58,13 +59,16 @@ public:
     /// Waits for what is being made, without the others.
     ~LiveParts();
 
-    /// mine: the particles of this process, which are copied. index: greater than the one before; index and time are
-    /// the same in all processes. False: the frame is left out, in all of them.
+    /// mine: gives the particles of this process, which are copied, if the frame is not left out. index: greater than
+    /// the one before; index and time are the same in all processes. False: the frame is left out, in all of them.
     ///
     /// What one process throws all throw, with its rank: InvalidInput for particles, an index or a time that cannot be,
     /// and what the frame before has met, PublishingFailed among it. This frame is then left out, and the next may
     /// come.
-    bool push(const ParticleFrame& mine, std::uint64_t index, double simulation_time);
+    bool push(const FrameGiver& mine, std::uint64_t index, double simulation_time);
+    bool push(const ParticleFrame& mine, std::uint64_t index, double simulation_time) {
+        return push([&mine] { return mine; }, index, simulation_time);
+    }
     /// Waits until all that was pushed has been published. Throws likewise.
     void finish();
     /// Frames left out so far.

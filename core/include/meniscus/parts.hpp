@@ -72,6 +72,8 @@ struct FinishedPart {
     const Statistics& statistics;
 };
 using PartSink = std::function<void(const FinishedPart&)>;
+/// Gives a frame that stays for the time of the call. What it throws is thrown by all processes.
+using FrameGiver = std::function<ParticleFrame()>;
 
 /// Figures of a frame in parts, over all processes, of parts as they were made last.
 struct PartsReport {
@@ -110,7 +112,7 @@ public:
     // thread's.
 
     /// Copies the particles, and brings the first ones to those that make parts of them.
-    void begin(const ParticleFrame& mine);
+    void begin(const FrameGiver& mine);
     /// Makes a part of these particles, if this process has one to make now. What goes wrong is thrown by go_on().
     void make(const PartSink& sink) noexcept;
     /// Brings the particles for more parts, and returns true; once all are made and their seams are equal, false.

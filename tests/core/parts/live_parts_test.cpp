@@ -272,12 +272,12 @@ TEST(LiveParts, RefuseOnAllRanksWhatOneMustNotPushAndPublishTheFrameBefore) {
         EXPECT_EQ(
             test::refusal([&] { parts.push((is_second ? bad : test::Particles()).frame(), 6, 0.0); }).substr(0, 18),
             "rank 1: particle 1");
-        EXPECT_EQ(test::refusal([&] { parts.push({}, 6, 0.0); }),
+        EXPECT_EQ(test::refusal([&] { parts.push(ParticleFrame(), 6, 0.0); }),
                   "rank 0: frame index 6 after 6; indices must increase");
-        EXPECT_EQ(test::refusal([&] { parts.push({}, is_second ? 8 : 7, 0.0); }),
+        EXPECT_EQ(test::refusal([&] { parts.push(ParticleFrame(), is_second ? 8 : 7, 0.0); }),
                   "rank 1 pushes frame 8 at time 0.000000, and rank 0 pushes frame 7 at time 0.000000: all must do the "
                   "same");
-        EXPECT_EQ(test::refusal([&] { parts.push({}, 9, is_second ? NAN : 0.0); }),
+        EXPECT_EQ(test::refusal([&] { parts.push(ParticleFrame(), 9, is_second ? NAN : 0.0); }),
                   "rank 1: frame 9: simulation_time is nan; it must be finite");
         EXPECT_TRUE(parts.push(share_of(frame_of(9), 9, exchange.rank(), 2).frame(), 9, 0.0));
         parts.finish();

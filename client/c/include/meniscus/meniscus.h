@@ -336,6 +336,58 @@ MENISCUS_API meniscus_result meniscus_frame_mesh(const meniscus_frame* frame, me
 /* The figures of the frame as the server has reconstructed it. */
 MENISCUS_API meniscus_result meniscus_frame_statistics(const meniscus_frame* frame, meniscus_statistics* statistics);
 
+/* ---- Many processes that make one surface ----------------------------------------------------------------------- */
+
+/* The processes of a job, its ranks, that reconstruct each frame of their simulation together and publish it to a
+ * server. For MPI, meniscus/mpi.h makes it; all of this is since 0.2. */
+typedef struct meniscus_parts meniscus_parts;
+
+/* How the ranks exchange bytes. The functions are called within meniscus_parts_open(), _push() and _free() alone, by
+ * all ranks in the same order, on the threads that call these; each returns 0, or another number where it has failed.
+ */
+typedef struct meniscus_exchange {
+    size_t struct_size;  /* sizeof(meniscus_exchange) */
+    uint32_t rank;       /* the number of this process, from 0 */
+    uint32_t ranks;      /* how many there are */
+    uint32_t leads_node; /* 1 in one rank of each machine, else 0 */
+    void* context;       /* for the functions */
+    /* Writes the bytes of all to `all`, one rank's after the other's. sizes: of each, the same in all ranks; together
+     * at most 2^31 - 1. */
+    int (*gather)(void* context, const void* mine, const size_t* sizes, void* all);
+    /* Writes to from[i] what rank i has in to[this rank]. */
+    int (*trade_sizes)(void* context, const uint64_t* to, uint64_t* from);
+    /* Writes to from[i] the bytes that rank i has in to[this rank], but for this rank's own; any number of bytes. */
+    int (*trade)(void* context, const void* const* to, const uint64_t* to_sizes, void* const* from,
+                 const uint64_t* from_sizes);
+    void (*release)(void* context); /* called last by meniscus_parts_free(); may be NULL */
+} meniscus_exchange;
+
+/* Called by all ranks together with the same options; opens the session. options: server (HOST:PORT, required), those
+ * of meniscus_client_connect(), of meniscus_reconstructor_create() and of meniscus_publisher_open() but nth, parts,
+ * part and run; reconstruct-ranks (the ranks that reconstruct and publish: node, the default, is one of each machine;
+ * all; or a number of them), overlap (base cells, default 4), policy (of frames that come while one is being
+ * reconstructed: latest, the default, leaves them out; every-frame waits). A rank that fails makes all fail, here and
+ * below; the message names it. */
+MENISCUS_API meniscus_result meniscus_parts_open(const meniscus_exchange* exchange, const meniscus_options* options,
+                                                 meniscus_parts** parts);
+/* Called by all ranks together. particles: those that this rank owns, wherever they are, also none; each particle of
+ * the frame is owned by one rank. They are copied and brought to the ranks that reconstruct, whose threads do that
+ * after the call has returned. A frame is published during the push after it, once the parts' surfaces are known to
+ * meet. step and time: of the frame, the same in all ranks; step is greater than the one before.
+ *
+ * MENISCUS_WOULD_WAIT: the frame is left out, by all ranks. An error: it is left out, too, and the next may be pushed.
+ * While the server is away frames are left out; that is told once, as MENISCUS_UNAVAILABLE, and once for each attempt
+ * to open the session again: 1, 2, 4 and at last 30 seconds lie between these. */
+MENISCUS_API meniscus_result meniscus_parts_push(meniscus_parts* parts, const meniscus_particles* particles,
+                                                 uint64_t step, double time);
+/* Called by all ranks together: waits until the last frame is shown, and ends the session if this job has made it. An
+ * error says what became of the last frames; `parts` is gone in any case. */
+MENISCUS_API meniscus_result meniscus_parts_free(meniscus_parts* parts);
+/* The session's id, for watchers. Valid as long as `parts`; NULL for NULL. */
+MENISCUS_API const char* meniscus_parts_session_id(const meniscus_parts* parts);
+/* Frames left out so far, but for those that were refused. */
+MENISCUS_API meniscus_result meniscus_parts_dropped(const meniscus_parts* parts, uint64_t* frames);
+
 #ifdef __cplusplus
 }
 #endif

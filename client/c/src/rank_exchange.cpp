@@ -1,0 +1,115 @@
+#include "rank_exchange.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <numeric>
+
+#include "failure.hpp"
+#include "meniscus/error.hpp"
+#include "sized_struct.hpp"
+
+namespace meniscus::c {
+namespace {
+
+void require_success(int result, const char* function) {
+    if (result != 0)
+        throw ProcessFailed(std::string("exchange->") + function + " has returned " + std::to_string(result) +
+                            ": the ranks can exchange no more");
+}
+
+}  // namespace
+
+RankExchange::RankExchange(const meniscus_exchange* exchange) : to_(read_struct(exchange, "exchange")) {
+    if (to_.rank >= to_.ranks)
+        throw InvalidInput("exchange->rank is " + std::to_string(to_.rank) + ", must be below exchange->ranks, " +
+                           std::to_string(to_.ranks));
+    required(to_.gather, "exchange->gather");
+    required(to_.trade_sizes, "exchange->trade_sizes");
+    required(to_.trade, "exchange->trade");
+}
+
+std::vector<PartExchange::Bytes> RankExchange::gather(Bytes mine) {
+    std::vector<std::size_t> sizes(ranks(), sizeof(std::uint64_t));
+    std::vector<std::uint64_t> numbers(ranks());
+    const std::uint64_t own = mine.size();
+    require_success(to_.gather(to_.context, &own, sizes.data(), numbers.data()), "gather");
+    constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
+    std::uint64_t all = 0;
+    for (std::size_t rank = 0; rank < ranks(); ++rank) {
+        sizes[rank] = numbers[rank];
+        // Each of them by itself, too, so that the sum stays right.
+        all += std::min(numbers[rank], most + 1);
+    }
+    if (all > most)
+        throw LimitExceeded("the ranks have " + std::to_string(all) + " bytes to tell all others, at most " +
+                            std::to_string(most) + " are possible: let fewer ranks reconstruct (reconstruct-ranks)");
+    Bytes joined(all);
+    require_success(to_.gather(to_.context, mine.data(), sizes.data(), joined.data()), "gather");
+    std::vector<Bytes> of_ranks;
+    auto at = joined.begin();
+    for (const std::size_t size : sizes) {
+        of_ranks.emplace_back(at, at + static_cast<std::ptrdiff_t>(size));
+        at += static_cast<std::ptrdiff_t>(size);
+    }
+    return of_ranks;
+}
+
+std::vector<PartExchange::Bytes> RankExchange::all_to_all(std::vector<Bytes> to) {
+    std::vector<std::uint64_t> to_sizes(ranks()), from_sizes(ranks());
+    for (std::size_t rank = 0; rank < ranks(); ++rank) to_sizes[rank] = to[rank].size();
+    require_success(to_.trade_sizes(to_.context, to_sizes.data(), from_sizes.data()), "trade_sizes");
+    std::vector<Bytes> from(ranks());
+    from[rank()] = std::move(to[rank()]);
+    from_sizes[rank()] = to_sizes[rank()] = 0;
+    receive(from_sizes, from);
+    std::vector<const void*> sent(ranks());
+    std::vector<void*> received(ranks());
+    for (std::size_t rank = 0; rank < ranks(); ++rank) {
+        sent[rank] = to[rank].data();
+        received[rank] = from[rank].data();
+    }
+    require_success(to_.trade(to_.context, sent.data(), to_sizes.data(), received.data(), from_sizes.data()), "trade");
+    return from;
+}
+
+void RankExchange::receive(const std::vector<std::uint64_t>& sizes, std::vector<Bytes>& from) {
+    Bytes is_there(1, std::byte{1});
+    try {
+        for (std::size_t rank = 0; rank < from.size(); ++rank)
+            if (sizes[rank] != 0) from[rank].resize(sizes[rank]);
+    } catch (const std::exception&) {  // bad_alloc, or more than a vector can have
+        is_there[0] = std::byte{0};
+    }
+    const std::vector<Bytes> all = gather(std::move(is_there));
+    for (std::size_t rank = 0; rank < all.size(); ++rank)
+        if (all[rank].at(0) == std::byte{0})
+            throw LimitExceeded("rank " + std::to_string(rank) +
+                                " has not enough memory for the particles that it is to reconstruct from: let more "
+                                "ranks reconstruct (reconstruct-ranks)");
+}
+
+void RankExchange::release() const {
+    if (to_.release != nullptr) to_.release(to_.context);
+}
+
+std::vector<std::string> RankExchange::told(meniscus_result result, const std::string& words) {
+    const auto code = static_cast<std::int32_t>(result);
+    Bytes message(sizeof code + words.size());
+    std::memcpy(message.data(), &code, sizeof code);
+    if (!words.empty()) std::memcpy(message.data() + sizeof code, words.data(), words.size());
+    std::vector<std::string> all;
+    const std::vector<Bytes> messages = gather(std::move(message));
+    for (std::size_t rank = 0; rank < messages.size(); ++rank) {
+        std::int32_t its = 0;
+        std::memcpy(&its, messages[rank].data(), sizeof its);
+        const auto* const text = reinterpret_cast<const char*>(messages[rank].data() + sizeof its);
+        all.emplace_back(text, messages[rank].size() - sizeof its);
+        if (its < 0)
+            throw Failure(static_cast<meniscus_result>(its), "rank " + std::to_string(rank) + ": " + all.back());
+    }
+    return all;
+}
+
+}  // namespace meniscus::c

@@ -1,0 +1,45 @@
+// The ranks of the C interface as processes that exchange.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "meniscus/meniscus.h"
+#include "meniscus/parts.hpp"
+#include "result.hpp"
+
+namespace meniscus::c {
+
+class RankExchange final : public PartExchange {
+public:
+    /// Throws InvalidInput for a struct that makes no sense.
+    explicit RankExchange(const meniscus_exchange* exchange);
+
+    std::size_t rank() const override { return to_.rank; }
+    std::size_t ranks() const override { return to_.ranks; }
+    bool leads_node() const { return to_.leads_node != 0; }
+    std::vector<Bytes> gather(Bytes mine) override;
+    std::vector<Bytes> all_to_all(std::vector<Bytes> to) override;
+    void release() const;
+
+    /// What body() returns in each rank. What it throws in one is thrown in all, as Failure.
+    template <class Body>
+    std::vector<std::string> told(const Body& body) {
+        std::string words;
+        const meniscus_result result = guarded([&] {
+            words = body();
+            return MENISCUS_OK;
+        });
+        return told(result, result < 0 ? meniscus_error_message() : words);
+    }
+
+private:
+    std::vector<std::string> told(meniscus_result result, const std::string& words);
+    /// Throws LimitExceeded, in all ranks, where one has no memory.
+    void receive(const std::vector<std::uint64_t>& sizes, std::vector<Bytes>& from);
+
+    meniscus_exchange to_;
+};
+
+}  // namespace meniscus::c

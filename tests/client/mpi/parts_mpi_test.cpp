@@ -1,0 +1,148 @@
+// The ranks of an MPI job make one surface, whoever owns the particles: that of one process.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "../c/through_server.hpp"
+#include "meniscus/meniscus.hpp"
+#include "support/particles.hpp"
+
+namespace meniscus::test {
+namespace {
+
+/// parts_job under mpirun, step by step.
+class Job {
+public:
+    explicit Job(int ranks, std::vector<std::string> arguments) {
+        // Open MPI runs neither as root nor more ranks than cores unless it is told to; other MPIs pass these over.
+        ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+        ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+        ::setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+        arguments.insert(arguments.begin(), {MENISCUS_MPIEXEC, "-n", std::to_string(ranks), MENISCUS_JOB});
+        std::vector<char*> argv;
+        for (std::string& argument : arguments) argv.push_back(argument.data());
+        argv.push_back(nullptr);
+        int down[2];
+        int up[2];
+        EXPECT_EQ(::pipe2(down, O_CLOEXEC), 0);
+        EXPECT_EQ(::pipe2(up, O_CLOEXEC), 0);
+        pid_ = ::fork();
+        if (pid_ == 0) {
+            ::dup2(down[0], STDIN_FILENO);
+            ::dup2(up[1], STDOUT_FILENO);
+            ::execv(MENISCUS_MPIEXEC, argv.data());
+            ::_exit(127);
+        }
+        ::close(down[0]);
+        ::close(up[1]);
+        to_ = ::fdopen(down[1], "w");
+        from_ = ::fdopen(up[0], "r");
+    }
+    ~Job() {
+        std::fclose(to_);
+        std::fclose(from_);
+        ::waitpid(pid_, nullptr, 0);
+    }
+    Job(const Job&) = delete;
+    Job& operator=(const Job&) = delete;
+
+    void go_on() {
+        std::fputc('\n', to_);
+        std::fflush(to_);
+    }
+    /// Its next line, but for those of process ids.
+    std::string line() {
+        std::array<char, 1024> text{};
+        do {
+            if (std::fgets(text.data(), text.size(), from_) == nullptr) return "nothing";
+        } while (std::string_view(text.data()).starts_with("pid "));
+        std::string line = text.data();
+        line.erase(line.find_last_not_of(" \n") + 1);
+        return line;
+    }
+
+private:
+    pid_t pid_ = -1;
+    std::FILE* to_ = nullptr;
+    std::FILE* from_ = nullptr;
+};
+
+class MpiParts : public CThroughServer {
+protected:
+    static constexpr unsigned frames = 4;
+
+    MpiParts() {
+        std::string folder = (std::filesystem::temp_directory_path() / "meniscus-XXXXXX").string();
+        folder_ = ::mkdtemp(folder.data());
+        Settings settings = default_settings();
+        settings.cell_size = 0.25;
+        for (unsigned i = 0; i < frames; ++i) {
+            const Particles particles = splash(i, 8);
+            files_.push_back(folder_ + "/" + std::to_string(i));
+            std::ofstream(files_.back(), std::ios::binary)
+                .write(reinterpret_cast<const char*>(particles.positions.data()),
+                       static_cast<std::streamsize>(particles.positions.size() * sizeof(float)));
+            hashes_.push_back(mesh_sha256(reconstruct(settings, particles.frame())));
+        }
+    }
+    ~MpiParts() override { std::filesystem::remove_all(folder_); }
+
+    std::vector<std::string> arguments(const std::string& deal, const std::string& makers) const {
+        std::vector<std::string> words{
+            deal,        "server=" + address_, "particle-radius=0.025",      "cell-size=0.25",
+            "threads=1", "policy=every-frame", "reconstruct-ranks=" + makers};
+        words.insert(words.end(), files_.begin(), files_.end());
+        return words;
+    }
+
+    std::string folder_;
+    std::vector<std::string> files_;
+    std::vector<std::string> hashes_;
+};
+
+TEST_F(MpiParts, GiveWatchersTheSurfaceOfOneProcess) {
+    struct Run {
+        int ranks;
+        const char* deal;
+        const char* makers;
+    };
+    for (const Run& run : {Run{1, "one", "node"}, Run{2, "random", "all"}, Run{3, "moving", "2"},
+                           Run{4, "slabs", "all"}, Run{3, "one", "node"}}) {
+        SCOPED_TRACE(testing::Message() << run.ranks << " ranks, " << run.deal << ", " << run.makers);
+        Job job(run.ranks, arguments(run.deal, run.makers));
+        const std::string session = job.line();
+        ASSERT_EQ(session.substr(0, 8), "session ");
+        ASSERT_EQ(job.line(), "ok");
+        const CWatcher watcher = watch(session.substr(8).c_str());
+        for (unsigned i = 0; i < frames; ++i) {
+            job.go_on();
+            ASSERT_EQ(job.line(), "ok");
+            if (i == 0) continue;
+            CFrame seen;
+            ASSERT_EQ(meniscus_watcher_next(watcher.get(), patience, seen.out()), MENISCUS_OK)
+                << meniscus_error_message();
+            EXPECT_EQ(sha256_of(seen), hashes_[i - 1]);
+        }
+        job.go_on();
+        EXPECT_EQ(job.line(), "ok");
+    }
+}
+
+TEST_F(MpiParts, SayTogetherThatThereIsNoServer) {
+    std::vector<std::string> words = arguments("random", "all");
+    words[1] = "server=unix:/nowhere/meniscus";
+    Job job(3, words);
+    EXPECT_EQ(job.line().substr(0, 55), "unavailable rank 0: no server at unix:/nowhere/meniscus");
+}
+
+}  // namespace
+}  // namespace meniscus::test
