@@ -221,10 +221,18 @@ void validate_places(const ParticleFrame& frame, const Settings& settings) {
                                    " that this cell size can address");
         return;
     }
-    for (std::size_t i = 0; i < frame.positions.size(); ++i)
-        // Also false for a NaN.
-        if (!(std::abs(static_cast<double>(frame.positions[i])) <= limit))
-            refuse_coordinate(settings, i, frame.positions[i]);
+    // Also false for a NaN.
+    const auto is_within = [limit](float x) { return std::abs(static_cast<double>(x)) <= limit; };
+    // All of some at a time, without a branch.
+    constexpr std::size_t at_once = 1024;
+    for (std::size_t first = 0; first < frame.positions.size(); first += at_once) {
+        const auto some = frame.positions.subspan(first, std::min(at_once, frame.positions.size() - first));
+        unsigned are_within = 1;
+        for (const float x : some) are_within &= static_cast<unsigned>(is_within(x));
+        if (are_within != 0) continue;
+        const auto wrong = std::find_if_not(some.begin(), some.end(), is_within);
+        refuse_coordinate(settings, first + static_cast<std::size_t>(wrong - some.begin()), *wrong);
+    }
 }
 
 }  // namespace meniscus

@@ -1,8 +1,6 @@
 // Particles near a part, by the place that a position decodes to.
 #include "parts/part_particles.hpp"
 
-#include <type_traits>
-
 #include "parts/message.hpp"
 
 namespace meniscus {
@@ -32,6 +30,19 @@ private:
     const ParticleFrame& frame_;
 };
 
+/// Of the particles within the box.
+std::vector<std::uint32_t> places_within(const ParticleFrame& frame, const Box& box) {
+    const Places places(frame);
+    std::vector<std::uint32_t> chosen(frame.count());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < frame.count(); ++i) {
+        chosen[count] = static_cast<std::uint32_t>(i);
+        count += places.are_in(i, box) ? 1 : 0;
+    }
+    chosen.resize(count);
+    return chosen;
+}
+
 }  // namespace
 
 FrameForm::FrameForm(const ParticleFrame& frame)
@@ -46,17 +57,16 @@ std::vector<ParticleArray> FrameForm::without_values() const {
     return all;
 }
 
-std::vector<std::byte> particles_within(const ParticleFrame& frame, const Box& box) {
-    const Places places(frame);
-    std::vector<std::uint32_t> chosen(frame.count());
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < frame.count(); ++i) {
-        chosen[count] = static_cast<std::uint32_t>(i);
-        count += places.are_in(i, box) ? 1 : 0;
-    }
-    chosen.resize(count);
+std::vector<std::byte> particles_within(const ParticleFrame& frame, const Box& box, const Box& around) {
     MessageWriter message;
-    if (chosen.empty()) return message.take();
+    bool are_all_in = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (around.max[axis] < box.min[axis] || around.min[axis] > box.max[axis]) return message.take();
+        are_all_in = are_all_in && around.min[axis] >= box.min[axis] && around.max[axis] <= box.max[axis];
+    }
+    const std::vector<std::uint32_t> chosen = are_all_in ? std::vector<std::uint32_t>() : places_within(frame, box);
+    const std::size_t count = are_all_in ? frame.count() : chosen.size();
+    if (count == 0) return message.take();
     // With the counts of the arrays, and a byte for who sends it.
     std::size_t bytes = (frame.arrays.size() + 3) * sizeof(std::uint64_t) + 1;
     const auto each = [](const auto& values) { return values.empty() ? 0 : sizeof values[0]; };
@@ -64,9 +74,10 @@ std::vector<std::byte> particles_within(const ParticleFrame& frame, const Box& b
     for (const ParticleArray& array : frame.arrays) bytes += count * array.element_bytes();
     message.reserve(bytes);
     const auto add = [&](const auto& values, std::size_t numbers) {
-        using Number = std::remove_cvref_t<decltype(values[0])>;
-        const std::span<const std::uint32_t> those = values.empty() ? std::span<const std::uint32_t>() : chosen;
-        message.add_some(std::span<const Number>(values), numbers, those);
+        if (are_all_in || values.empty())
+            message.add_all(values);
+        else
+            message.add_some(values, numbers, chosen);
     };
     add(frame.positions, 3);
     add(frame.quantized, 3);

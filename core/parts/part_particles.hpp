@@ -32,8 +32,9 @@ struct FrameForm {
     bool operator==(const FrameForm&) const = default;
 };
 
-/// The particles of a valid frame that lie within a closed box, world units, as a message.
-std::vector<std::byte> particles_within(const ParticleFrame& frame, const Box& box);
+/// The particles of a valid frame that lie within a closed box, world units, as a message. around: a box that holds all
+/// of the frame's.
+std::vector<std::byte> particles_within(const ParticleFrame& frame, const Box& box, const Box& around);
 
 /// Owns the arrays of a frame: of a part's, or of a copy. Keeps its memory from frame to frame.
 class PartParticles {

@@ -23,6 +23,25 @@
 #include "steps/fill_cracks/volume.hpp"
 
 namespace meniscus {
+namespace {
+
+/// World units, around all particles in these bricks.
+Box box_around(std::span<const BrickLoad> loads, const Settings& settings) {
+    const double edge = brick_cells * world_cell_size(settings);
+    constexpr double rounding = 1e-3;  // of a brick: far more than a particle is moved by snapping
+    Box box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto by_axis = [axis](const BrickLoad& a, const BrickLoad& b) { return a.brick[axis] < b.brick[axis]; };
+        const auto [low, high] = std::minmax_element(loads.begin(), loads.end(), by_axis);
+        if (loads.empty()) continue;
+        box.min[axis] = (low->brick[axis] - rounding) * edge;
+        box.max[axis] = (high->brick[axis] + 1 + rounding) * edge;
+    }
+    return box;
+}
+
+}  // namespace
+
 std::vector<PartExchange::Bytes> AloneExchange::gather(Bytes mine) {
     std::vector<Bytes> all;
     all.push_back(std::move(mine));
@@ -67,7 +86,9 @@ public:
                 mine_ = copy_.frame();
             }
             validate_places(mine_, settings_);
-            return packed(facts_of(mine_));
+            const FrameFacts facts = facts_of(mine_);
+            around_ = box_around(facts.loads, settings_);
+            return packed(facts);
         });
         bring([&] {
             facts_ = facts_together(of_ranks);
@@ -148,7 +169,7 @@ private:
             for (std::size_t rank = 0; rank < to.size(); ++rank)
                 if (turn_ < of_rank_[rank].size())
                     to[rank] = particles_within(
-                        mine_, reach_of(part(of_rank_[rank][turn_]), settings_, facts_.coarsest_level()));
+                        mine_, reach_of(part(of_rank_[rank][turn_]), settings_, facts_.coarsest_level()), around_);
             return to;
         });
     }
@@ -228,6 +249,7 @@ private:
     PartParticles copy_;
     std::vector<ParticleArray> arrays_;
     ParticleFrame mine_;  ///< borrows from the caller, or from the copy
+    Box around_;          ///< all of its particles
     FrameFacts facts_;
     std::vector<BrickBox> own_;
     std::vector<std::uint32_t> overlaps_;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <barrier>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +13,7 @@
 
 #include "../../server/process.hpp"
 #include "handles.hpp"
+#include "thread_ranks.hpp"
 
 namespace meniscus::test {
 namespace {
@@ -94,7 +96,9 @@ protected:
     }
     /// Of the session's newest mesh, as a watcher receives it.
     std::string shown_sha256(const CPublisher& publisher) const {
-        const std::string id = meniscus_publisher_session_id(publisher.get());
+        return shown_sha256(std::string(meniscus_publisher_session_id(publisher.get())));
+    }
+    std::string shown_sha256(const std::string& id) const {
         const std::string cli = MENISCUS_CLI;
         output_of(cli + " watch " + id + " --server " + address_ + " -o " + folder_ + " --format bricks --frames 1 -q");
         const std::string file = std::filesystem::directory_iterator(folder_)->path().string();
@@ -149,6 +153,35 @@ TEST_F(CPushBricks, OfSeveralProcessesMakeOneSurface) {
     const meniscus_statistics of_first = answer_of(first, 4);
     EXPECT_EQ(answer_of(second, 4).triangles, of_first.triangles);
     EXPECT_EQ(shown_sha256(first), sha256(whole));
+}
+
+TEST_F(CPushBricks, OfRanksThatReconstructTogetherMakeTheSurfaceOfOneProcess) {
+    constexpr std::size_t count = 60;
+    const std::string expected = sha256(row(-3.0, count));
+    std::barrier<> seen(3);
+    on_ranks(3, [&](const meniscus_exchange& exchange) {
+        const COptions options = options_of({{"server", address_.c_str()},
+                                             {"particle-radius", "0.1"},
+                                             {"threads", "1"},
+                                             {"policy", "every-frame"},
+                                             {"reconstruct-ranks", "2"}});
+        meniscus_parts* parts = nullptr;
+        ASSERT_EQ(meniscus_parts_open(&exchange, options.get(), &parts), MENISCUS_OK) << meniscus_error_message();
+        std::vector<double> positions;
+        for (std::size_t i = exchange.rank; i < count; i += 3)
+            positions.insert(positions.end(), {-3.0 + 0.2 * static_cast<double>(i), 0.1, -0.1});
+        meniscus_particles mine = MENISCUS_PARTICLES_INIT;
+        mine.count = positions.size() / 3;
+        mine.positions_double = positions.data();
+        // The first frame is shown with the second one.
+        for (std::uint64_t step = 0; step < 2; ++step)
+            EXPECT_EQ(meniscus_parts_push(parts, &mine, step, 0.0), MENISCUS_OK) << meniscus_error_message();
+        if (exchange.rank == 2) {
+            EXPECT_EQ(shown_sha256(std::string(meniscus_parts_session_id(parts))), expected);
+        }
+        seen.arrive_and_wait();
+        EXPECT_EQ(meniscus_parts_free(parts), MENISCUS_OK) << meniscus_error_message();
+    });
 }
 
 TEST_F(CPushBricks, RefuseWhatIsWrongBeforeItIsSentAndGoOn) {
