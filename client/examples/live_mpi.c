@@ -11,7 +11,7 @@
 
 #include "wave.h"
 
-enum { steps = 600 };
+enum { steps = 2000 };
 
 int main(int argc, char** argv) {
     int rank = 0;

@@ -221,8 +221,11 @@ void validate_places(const ParticleFrame& frame, const Settings& settings) {
                                    " that this cell size can address");
         return;
     }
+    // As a float32: the greatest that is no farther.
+    auto farthest = static_cast<float>(limit);
+    if (static_cast<double>(farthest) > limit) farthest = std::nextafter(farthest, 0.0F);
     // Also false for a NaN.
-    const auto is_within = [limit](float x) { return std::abs(static_cast<double>(x)) <= limit; };
+    const auto is_within = [farthest](float x) { return std::abs(x) <= farthest; };
     // All of some at a time, without a branch.
     constexpr std::size_t at_once = 1024;
     for (std::size_t first = 0; first < frame.positions.size(); first += at_once) {

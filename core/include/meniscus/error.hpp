@@ -31,8 +31,8 @@ public:
     Stopped() : std::runtime_error("the reconstruction was stopped") {}
 };
 
-/// Another process of several that make one surface has failed, or this one has for another reason than those above. The
-/// message names its rank. All of them throw it together.
+/// Another process of several that make one surface has failed, or this one has for another reason than those above.
+/// The message names its rank. All of them throw it together.
 class ProcessFailed : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

@@ -124,6 +124,7 @@ class Packages(unittest.TestCase):
             "/libmeniscus_core.a",
             "/include/meniscus/client/client.hpp",
             "/include/meniscus/meniscus.h",
+            "/include/meniscus/mpi.h",
             "/pkgconfig/meniscus.pc",
             "/share/doc/libmeniscus-dev/examples/in_process.c",
         ):
