@@ -4,7 +4,8 @@
 #include <atomic>
 #include <barrier>
 #include <cmath>
-#include <map>
+#include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <random>
 #include <string>
@@ -173,7 +174,7 @@ TEST_F(CParts, RefuseParticlesOnAllRanksAndGoOn) {
     EXPECT_EQ(meniscus_parts_session_id(nullptr), nullptr);
 }
 
-TEST_F(CParts, GoOnWhileTheServerIsAwayAndOnceItIsBack) {
+TEST_F(CParts, GoOnOnceTheSessionHasBeenEnded) {
     std::atomic<int> failures = 0;
     std::barrier<> together(3);
     on_ranks(3, [&](const meniscus_exchange& exchange) {
@@ -209,6 +210,46 @@ TEST_F(CParts, GoOnWhileTheServerIsAwayAndOnceItIsBack) {
         EXPECT_EQ(meniscus_parts_free(parts), MENISCUS_OK) << meniscus_error_message();
     });
     EXPECT_LT(failures, 10);
+}
+
+TEST(CPartsOfAServer, GoOnWhileItIsAwayAndOnceItIsBack) {
+    std::string folder = (std::filesystem::temp_directory_path() / "meniscus-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+    const std::string address = "unix:" + folder + "/socket";
+    std::optional<server::test::Process> server;
+    const auto start = [&] {
+        server.emplace(std::vector<std::string>{"--listen", address, "--threads", "2"});
+        server->address();
+    };
+    start();
+    std::barrier<> together(2);
+    on_ranks(2, [&](const meniscus_exchange& exchange) {
+        const COptions given = options_of({{"particle-radius", "0.025"},
+                                           {"threads", "1"},
+                                           {"reconstruct-ranks", "all"},
+                                           {"policy", "every-frame"},
+                                           {"server", address.c_str()}});
+        meniscus_parts* parts = nullptr;
+        ASSERT_EQ(meniscus_parts_open(&exchange, given.get(), &parts), MENISCUS_OK) << meniscus_error_message();
+        std::uint64_t frame = 0;
+        EXPECT_EQ(push(parts, exchange, frame++), MENISCUS_OK);
+        together.arrive_and_wait();
+        if (exchange.rank == 0) server.reset();
+        together.arrive_and_wait();
+        meniscus_result result = MENISCUS_OK;
+        while ((result = push(parts, exchange, frame++)) == MENISCUS_OK) {
+        }
+        EXPECT_TRUE(refused(result, MENISCUS_UNAVAILABLE, "rank "));
+        while (push(parts, exchange, frame++) != MENISCUS_WOULD_WAIT) {}
+        together.arrive_and_wait();
+        if (exchange.rank == 0) start();
+        together.arrive_and_wait();
+        // The second one is begun once the first is published.
+        for (int taken = 0; taken < 3;) taken = push(parts, exchange, frame++) == MENISCUS_OK ? taken + 1 : 0;
+        EXPECT_EQ(meniscus_parts_free(parts), MENISCUS_OK) << meniscus_error_message();
+    });
+    server.reset();
+    std::filesystem::remove_all(folder);
 }
 
 }  // namespace
