@@ -240,7 +240,8 @@ TEST(CPartsOfAServer, GoOnWhileItIsAwayAndOnceItIsBack) {
         while ((result = push(parts, exchange, frame++)) == MENISCUS_OK) {
         }
         EXPECT_TRUE(refused(result, MENISCUS_UNAVAILABLE, "rank "));
-        while (push(parts, exchange, frame++) != MENISCUS_WOULD_WAIT) {}
+        while (push(parts, exchange, frame++) != MENISCUS_WOULD_WAIT) {
+        }
         together.arrive_and_wait();
         if (exchange.rank == 0) start();
         together.arrive_and_wait();
