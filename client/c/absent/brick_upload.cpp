@@ -1,5 +1,5 @@
 // Uploads of encoded frames in a build without the service: `meniscus push` gives them to the server.
-#include "../src/brick_upload.hpp"
+#include "ranks/brick_upload.hpp"
 
 #include <chrono>
 #include <utility>
@@ -12,7 +12,7 @@
 namespace meniscus::c {
 namespace {
 
-class PipedUpload final : public BrickUpload {
+class PipedUpload final : public ranks::BrickUpload {
 public:
     PipedUpload(const meniscus_client& client, const PushArguments& arguments)
         : upload_(client, arguments, bricks_beginning()) {}
@@ -39,12 +39,15 @@ private:
 };
 
 }  // namespace
+}  // namespace meniscus::c
+
+namespace meniscus::ranks {
 
 std::unique_ptr<BrickUpload> open_brick_upload(const std::string& server, const text_options::Options& connection,
                                                const text_options::Options& session) {
-    check_connection(connection);
-    const meniscus_client client{push_program("meniscus_parts_open"), server, connection};
-    return std::make_unique<PipedUpload>(client, publish_arguments(server, connection, session).push);
+    c::check_connection(connection);
+    const meniscus_client client{c::push_program("meniscus_parts_open"), server, connection};
+    return std::make_unique<c::PipedUpload>(client, c::publish_arguments(server, connection, session).push);
 }
 
-}  // namespace meniscus::c
+}  // namespace meniscus::ranks

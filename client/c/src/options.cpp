@@ -8,7 +8,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/near_name.hpp"
 #include "meniscus/quoted.hpp"
-#include "parts_options.hpp"
+#include "ranks/parts_options.hpp"
 #include "result.hpp"
 #include "text_options/attribute_options.hpp"
 #include "text_options/backend_options.hpp"
@@ -32,8 +32,8 @@ const std::vector<std::string>& known_names() {
         text_options::read_stream(reader);
         text_options::read_publisher(reader);
         text_options::read_watch(reader);
-        PartsArguments parts;
-        read_parts_options(reader, parts);
+        meniscus::ranks::PartsArguments parts;
+        meniscus::ranks::read_parts_options(reader, parts);
         return reader.known();
     }();
     return names;

@@ -1,13 +1,12 @@
 #include "rank_exchange.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <new>
-#include <numeric>
+#include <string>
 
-#include "failure.hpp"
 #include "meniscus/error.hpp"
+#include "result.hpp"
 #include "sized_struct.hpp"
 
 namespace meniscus::c {
@@ -92,24 +91,6 @@ void RankExchange::receive(const std::vector<std::uint64_t>& sizes, std::vector<
 
 void RankExchange::release() const {
     if (to_.release != nullptr) to_.release(to_.context);
-}
-
-std::vector<std::string> RankExchange::told(meniscus_result result, const std::string& words) {
-    const auto code = static_cast<std::int32_t>(result);
-    Bytes message(sizeof code + words.size());
-    std::memcpy(message.data(), &code, sizeof code);
-    if (!words.empty()) std::memcpy(message.data() + sizeof code, words.data(), words.size());
-    std::vector<std::string> all;
-    const std::vector<Bytes> messages = gather(std::move(message));
-    for (std::size_t rank = 0; rank < messages.size(); ++rank) {
-        std::int32_t its = 0;
-        std::memcpy(&its, messages[rank].data(), sizeof its);
-        const auto* const text = reinterpret_cast<const char*>(messages[rank].data() + sizeof its);
-        all.emplace_back(text, messages[rank].size() - sizeof its);
-        if (its < 0)
-            throw Failure(static_cast<meniscus_result>(its), "rank " + std::to_string(rank) + ": " + all.back());
-    }
-    return all;
 }
 
 }  // namespace meniscus::c

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "meniscus/meniscus.h"
 #include "meniscus/parts.hpp"
-#include "result.hpp"
 
 namespace meniscus::c {
 
@@ -23,19 +21,7 @@ public:
     std::vector<Bytes> all_to_all(std::vector<Bytes> to) override;
     void release() const;
 
-    /// What body() returns in each rank. What it throws in one is thrown in all, as Failure.
-    template <class Body>
-    std::vector<std::string> told(const Body& body) {
-        std::string words;
-        const meniscus_result result = guarded([&] {
-            words = body();
-            return MENISCUS_OK;
-        });
-        return told(result, result < 0 ? meniscus_error_message() : words);
-    }
-
 private:
-    std::vector<std::string> told(meniscus_result result, const std::string& words);
     /// Throws LimitExceeded, in all ranks, where one has no memory.
     void receive(const std::vector<std::uint64_t>& sizes, std::vector<Bytes>& from);
 

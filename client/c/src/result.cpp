@@ -5,9 +5,7 @@
 #include <cstdio>
 #include <new>
 
-#include "failure.hpp"
 #include "meniscus/client/errors.hpp"
-#include "meniscus/live_parts.hpp"
 #include "meniscus/reconstructor.hpp"
 
 namespace meniscus::c {
@@ -79,10 +77,6 @@ meniscus_result failed() noexcept {
         throw;
     } catch (const std::bad_alloc&) {
         return keep(MENISCUS_OUT_OF_MEMORY, "not enough memory is left");
-    } catch (const Failure& failure) {
-        return keep(failure.result(), failure.what());
-    } catch (const PublishingFailed& failure) {
-        return keep(MENISCUS_UNAVAILABLE, failure.what());
     } catch (const std::exception& error) {
         return keep(result_of(client::code_of(error)), error.what());
     } catch (...) {

@@ -7,7 +7,7 @@
 #include "meniscus/client/received_frame.hpp"
 #include "text_options/option_reader.hpp"
 
-namespace meniscus::c {
+namespace meniscus::ranks {
 
 class BrickUpload {
 public:
@@ -26,4 +26,4 @@ public:
 std::unique_ptr<BrickUpload> open_brick_upload(const std::string& server, const text_options::Options& connection,
                                                const text_options::Options& session);
 
-}  // namespace meniscus::c
+}  // namespace meniscus::ranks

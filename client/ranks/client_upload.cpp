@@ -1,4 +1,4 @@
-#include "brick_upload.hpp"
+#include "ranks/brick_upload.hpp"
 
 #include <chrono>
 #include <utility>
@@ -8,7 +8,7 @@
 #include "text_options/client_options.hpp"
 #include "text_options/settings_options.hpp"
 
-namespace meniscus::c {
+namespace meniscus::ranks {
 namespace {
 
 class ClientUpload final : public BrickUpload {
@@ -52,4 +52,4 @@ std::unique_ptr<BrickUpload> open_brick_upload(const std::string& server, const 
     return std::make_unique<ClientUpload>(made.open_session(settings, open), publishing);
 }
 
-}  // namespace meniscus::c
+}  // namespace meniscus::ranks

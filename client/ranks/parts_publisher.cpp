@@ -1,4 +1,4 @@
-#include "parts_publisher.hpp"
+#include "ranks/parts_publisher.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -7,7 +7,7 @@
 #include "meniscus/client/surface_part.hpp"
 #include "meniscus/reconstructor.hpp"
 
-namespace meniscus::c {
+namespace meniscus::ranks {
 
 PartsPublisher::PartsPublisher(const PartsArguments& arguments)
     : server_(arguments.server),
@@ -67,4 +67,4 @@ client::ReceivedFrame PartsPublisher::encoded(const LivePart& part) const {
     return client::encode_part(mesh, std::move(own), part.index, part.simulation_time, std::move(coding));
 }
 
-}  // namespace meniscus::c
+}  // namespace meniscus::ranks

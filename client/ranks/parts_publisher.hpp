@@ -6,11 +6,11 @@
 #include <memory>
 #include <string>
 
-#include "brick_upload.hpp"
+#include "ranks/brick_upload.hpp"
 #include "meniscus/live_parts.hpp"
-#include "parts_options.hpp"
+#include "ranks/parts_options.hpp"
 
-namespace meniscus::c {
+namespace meniscus::ranks {
 
 class PartsPublisher final : public LivePublisher {
 public:
@@ -50,4 +50,4 @@ private:
     Clock::time_point next_attempt_{};
 };
 
-}  // namespace meniscus::c
+}  // namespace meniscus::ranks

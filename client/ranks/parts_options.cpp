@@ -1,4 +1,4 @@
-#include "parts_options.hpp"
+#include "ranks/parts_options.hpp"
 
 #include <array>
 #include <string_view>
@@ -8,7 +8,7 @@
 #include "text_options/client_options.hpp"
 #include "text_options/settings_options.hpp"
 
-namespace meniscus::c {
+namespace meniscus::ranks {
 namespace {
 
 using text_options::OptionReader;
@@ -96,4 +96,4 @@ std::vector<std::size_t> ranks_of(const Makers& makers, const std::vector<bool>&
     return chosen;
 }
 
-}  // namespace meniscus::c
+}  // namespace meniscus::ranks

@@ -13,7 +13,7 @@
 #include "meniscus/settings.hpp"
 #include "text_options/option_reader.hpp"
 
-namespace meniscus::c {
+namespace meniscus::ranks {
 
 /// Which ranks reconstruct.
 struct Makers {
@@ -43,4 +43,4 @@ PartsArguments parts_arguments(const text_options::Options& options);
 /// leads_node: of each rank. Throws InvalidInput for more makers than ranks.
 std::vector<std::size_t> ranks_of(const Makers& makers, const std::vector<bool>& leads_node);
 
-}  // namespace meniscus::c
+}  // namespace meniscus::ranks

@@ -1,0 +1,73 @@
+#include "ranks/parts_job.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include "meniscus/client/errors.hpp"
+#include "ranks/agreed.hpp"
+
+namespace meniscus::ranks {
+namespace {
+
+/// The number of a first run, which is not 0, and above it room for those that follow.
+std::uint64_t drawn_run() {
+    std::random_device random;
+    return (std::uint64_t{random()} << 16) + 1;
+}
+
+}  // namespace
+
+PartsJob::PartsJob(PartExchange& exchange, bool leads_node, const text_options::Options& options)
+    : exchange_(exchange) {
+    std::optional<PartsArguments> arguments;
+    const std::vector<std::string> all = agreed(exchange_, [&] {
+        arguments = parts_arguments(options);
+        publisher_.emplace(*arguments);
+        return std::to_string(drawn_run()) + (leads_node ? "+" : "-");
+    });
+    std::vector<bool> lead_nodes;
+    for (const std::string& its : all) lead_nodes.push_back(its.back() == '+');
+    const std::vector<std::size_t> makers = ranks_of(arguments->makers, lead_nodes);
+    agreed(exchange_, [&] {
+        live_.emplace(arguments->settings, arguments->backend,
+                      PartsOptions{makers.size(), arguments->overlap, makers}, arguments->policy, exchange_,
+                      *publisher_);
+        return std::string();
+    });
+    open_session(makers, std::stoull(all[0]));
+}
+
+void PartsJob::open_session(const std::vector<std::size_t>& makers, std::uint64_t run) {
+    const auto own = std::find(makers.begin(), makers.end(), exchange_.rank());
+    is_maker_ = own != makers.end();
+    const auto number = static_cast<std::size_t>(own - makers.begin());
+    const auto open = [&] {
+        publisher_->open(number, makers.size(), run, session_id_);
+        return publisher_->session_id();
+    };
+    session_id_ = agreed(exchange_, [&] { return number == 0 ? open() : std::string(); })[makers[0]];
+    agreed(exchange_, [&] { return is_maker_ && number != 0 ? open() : std::string(); });
+}
+
+template <class Call>
+auto PartsJob::in_words_of_server(const Call& call) {
+    try {
+        return call();
+    } catch (const PublishingFailed& failure) {
+        throw client::ServerError(failure.what(), client::ErrorCode::unavailable);
+    }
+}
+
+bool PartsJob::push(const FrameGiver& mine, std::uint64_t index, double simulation_time) {
+    return in_words_of_server([&] { return live_->push(mine, index, simulation_time); });
+}
+
+void PartsJob::finish() {
+    in_words_of_server([&] { live_->finish(); });
+    agreed(exchange_, [&] {
+        if (is_maker_) publisher_->finish();
+        return std::string();
+    });
+}
+
+}  // namespace meniscus::ranks

@@ -1,0 +1,46 @@
+// The frames of a job's ranks, of which some make parts and publish them to a session that they share.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "meniscus/live_parts.hpp"
+#include "meniscus/parts.hpp"
+#include "ranks/parts_options.hpp"
+#include "ranks/parts_publisher.hpp"
+#include "text_options/option_reader.hpp"
+
+namespace meniscus::ranks {
+
+/// One in each rank. All functions are called by all ranks together, in the same order; what one rank throws, all
+/// throw, with its number.
+class PartsJob {
+public:
+    /// exchange: must stay. leads_node: of one rank of each machine. options: of settings, backend, connection, session
+    /// and publisher, and see PartsArguments. Throws InvalidInput for these, and what opening the session throws.
+    PartsJob(PartExchange& exchange, bool leads_node, const text_options::Options& options);
+
+    /// As LiveParts::push(), with client::ServerError in place of PublishingFailed. mine: may throw.
+    bool push(const FrameGiver& mine, std::uint64_t index, double simulation_time);
+    /// Publishes what was pushed, and waits until the server has answered.
+    void finish();
+    const std::string& session_id() const { return session_id_; }
+    std::uint64_t dropped() const { return live_->dropped(); }
+
+private:
+    /// The first maker opens the session, and the others join it.
+    void open_session(const std::vector<std::size_t>& makers, std::uint64_t run);
+    template <class Call>
+    auto in_words_of_server(const Call& call);
+
+    PartExchange& exchange_;
+    std::optional<PartsPublisher> publisher_;
+    std::optional<LiveParts> live_;  ///< goes first
+    std::string session_id_;
+    bool is_maker_ = false;
+};
+
+}  // namespace meniscus::ranks
