@@ -29,9 +29,8 @@ PartsJob::PartsJob(PartExchange& exchange, bool leads_node, const text_options::
     for (const std::string& its : all) lead_nodes.push_back(its.back() == '+');
     const std::vector<std::size_t> makers = ranks_of(arguments->makers, lead_nodes);
     agreed(exchange_, [&] {
-        live_.emplace(arguments->settings, arguments->backend,
-                      PartsOptions{makers.size(), arguments->overlap, makers}, arguments->policy, exchange_,
-                      *publisher_);
+        live_.emplace(arguments->settings, arguments->backend, PartsOptions{makers.size(), arguments->overlap, makers},
+                      arguments->policy, exchange_, *publisher_);
         return std::string();
     });
     open_session(makers, std::stoull(all[0]));

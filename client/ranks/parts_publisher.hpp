@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "ranks/brick_upload.hpp"
 #include "meniscus/live_parts.hpp"
+#include "ranks/brick_upload.hpp"
 #include "ranks/parts_options.hpp"
 
 namespace meniscus::ranks {

@@ -17,6 +17,7 @@ void bind_particle_frame(pybind11::module_& module);
 void bind_reconnect_handlers(pybind11::module_& module);
 void bind_stream(pybind11::module_& module);
 void bind_publisher(pybind11::module_& module);
+void bind_parts(pybind11::module_& module);
 void bind_watcher(pybind11::module_& module);
 void bind_recording(pybind11::module_& module);
 void bind_recording_file(pybind11::module_& module);

@@ -1,0 +1,131 @@
+// The class _meniscus.Parts: frames of a job's ranks.
+#include <algorithm>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "bindings.hpp"
+#include "meniscus/error.hpp"
+#include "ranks/parts_job.hpp"
+#include "sessions/frame_upload.hpp"
+#include "sessions/rank_exchange.hpp"
+#include "text_options/option_reader.hpp"
+#include "threads/ending.hpp"
+#include "threads/interpreter_lock.hpp"
+#include "threads/process.hpp"
+#include "values/arrays_in.hpp"
+
+namespace py = pybind11;
+
+namespace meniscus::python {
+namespace {
+
+/// Of a call whose arguments may be wrong in one rank alone, for which the others must not wait: they are told by the
+/// time.
+struct FramePlace {
+    std::uint64_t index;
+    double time = std::numeric_limits<double>::quiet_NaN();
+    std::exception_ptr wrong;
+
+    FramePlace(const py::object& given_index, const py::object& given_time, std::uint64_t next) : index(next) {
+        try {
+            index = index_of(given_index).value_or(next);
+            time = py::float_(given_time);
+        } catch (...) {
+            wrong = std::current_exception();
+        }
+    }
+};
+
+/// What `frame` gives. Errors of the package's are thrown as the library's, which all ranks then throw.
+py::tuple arrays_of(const py::function& frame) {
+    try {
+        return frame();
+    } catch (const py::error_already_set& raised) {
+        if (raised.matches(py::module_::import("meniscus.errors").attr("InvalidInput")))
+            throw InvalidInput(py::str(raised.value()).cast<std::string>());
+        throw;
+    }
+}
+
+class RankParts {
+public:
+    RankParts(py::object exchange, const text_options::Options& options)
+        : ranks_(std::move(exchange)), exchange_(ranks_) {
+        const bool leads_node = ranks_.attr("leads_node").cast<bool>();
+        without_lock([&] { job_.emplace(exchange_, leads_node, options); });
+    }
+    ~RankParts() {
+        ReleasedLock released;
+        job_.reset();
+        released.take_back();
+    }
+    RankParts(const RankParts&) = delete;
+    RankParts& operator=(const RankParts&) = delete;
+
+    bool push(const py::function& frame, const py::object& index, const py::object& time) {
+        require_own_process();
+        const Computation pushing;
+        const FramePlace place(index, time, next_);
+        bool is_taken = false;
+        try {
+            without_lock([&] {
+                is_taken = job_->push(
+                    [&] {
+                        with_lock_again([&] {
+                            const py::tuple arrays = arrays_of(frame);
+                            frame_.take(given_frame(arrays[0], arrays[1], arrays[2]));
+                        });
+                        return frame_.frame();
+                    },
+                    place.index, place.time);
+            });
+        } catch (...) {
+            note(place.index);
+            if (place.wrong) std::rethrow_exception(place.wrong);
+            throw;
+        }
+        note(place.index);
+        return is_taken;
+    }
+    void finish() {
+        require_own_process();
+        const Computation finishing;
+        without_lock([this] { job_->finish(); });
+    }
+    std::string session_id() const { return job_->session_id(); }
+    std::uint64_t dropped() const { return job_->dropped(); }
+
+private:
+    void note(std::uint64_t index) { next_ = std::max(next_, index + 1); }
+
+    py::object ranks_;
+    RankExchange exchange_;
+    OwnedFrame frame_;
+    std::uint64_t next_ = 0;
+    std::optional<ranks::PartsJob> job_;  ///< goes first
+};
+
+}  // namespace
+
+void bind_parts(py::module_& module) {
+    py::class_<RankParts, std::shared_ptr<RankParts>>(module, "Parts")
+        .def("push", &RankParts::push, py::arg("frame"), py::arg("index").none(true), py::arg("time"))
+        .def("finish", &RankParts::finish)
+        .def("session_id", &RankParts::session_id)
+        .def("dropped", &RankParts::dropped);
+    module.def(
+        "make_parts",
+        [](const py::object& exchange, const text_options::Options& options) {
+            require_own_process();
+            rest_at_end();
+            return make_in_process<RankParts>(exchange, options);
+        },
+        py::arg("exchange"), py::arg("options"));
+}
+
+}  // namespace meniscus::python

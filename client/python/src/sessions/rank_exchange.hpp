@@ -1,0 +1,38 @@
+// The ranks of a job as processes that exchange, by functions of Python: those of mpi4py.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "meniscus/parts.hpp"
+
+namespace meniscus::python {
+
+/// Its functions are called without the interpreter's lock, and throw what Python has raised.
+class RankExchange final : public PartExchange {
+public:
+    /// exchange: has rank, ranks, gather(bytes), a list of all ranks' bytes, and trade(list), of bytes to each rank,
+    /// likewise; borrowed, must stay. With the lock.
+    explicit RankExchange(const pybind11::object& exchange);
+
+    std::size_t rank() const override { return rank_; }
+    std::size_t ranks() const override { return ranks_; }
+    std::vector<Bytes> gather(Bytes mine) override;
+    std::vector<Bytes> all_to_all(std::vector<Bytes> to) override;
+
+private:
+    /// With the lock.
+    std::vector<Bytes> bytes_of_ranks(const pybind11::object& list) const;
+
+    pybind11::handle exchange_;
+    std::size_t rank_;
+    std::size_t ranks_;
+};
+
+/// Runs `work` with the interpreter's lock in a thread that has given it back. What it throws is thrown here.
+void with_lock_again(const std::function<void()>& work);
+
+}  // namespace meniscus::python

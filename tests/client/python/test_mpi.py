@@ -1,0 +1,77 @@
+"""The ranks of an MPI job, which make one surface (meniscus.mpi)."""
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import uuid
+
+import meniscus
+import pytest
+from support.falling import marks_of, particle_radius, particles_of
+
+pytest.importorskip("mpi4py")
+mpirun = shutil.which("mpirun")
+pytestmark = [
+    pytest.mark.skipif(mpirun is None, reason="there is no mpirun (openmpi-bin)"),
+    pytest.mark.skipif("LD_PRELOAD" in os.environ, reason="MPI would be started with a sanitizer's library"),
+]
+job = pathlib.Path(__file__).parent / "support" / "mpi_job.py"
+
+
+def run(ranks, *arguments):
+    """What each rank has printed."""
+    environment = {
+        **os.environ,
+        # Open MPI runs neither as root nor more ranks than cores unless it is told to; other MPIs pass these over.
+        "OMPI_ALLOW_RUN_AS_ROOT": "1",
+        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+        "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    }
+    environment["PYTHONPATH"] = f"{job.parents[1]}:{environment['PYTHONPATH']}"
+    command = [mpirun, "-n", str(ranks), sys.executable, "-B", "-m", "mpi4py", str(job), *map(str, arguments)]
+    ran = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120)
+    assert ran.returncode == 0, ran.stderr
+    return json.loads(ran.stdout)
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_the_ranks_of_a_job_make_the_surface_of_one_process_and_fail_together(client, server, ranks):
+    frames = 3
+    with client.session(particle_radius=particle_radius, id=str(uuid.uuid4())) as session:
+        with session.watch() as watcher:
+            told = run(ranks, server.address, session.id, frames)
+            seen = {}
+            for frame in watcher:
+                seen[frame.index] = frame
+                if frame.time == 0.5 * (frames - 1):
+                    break
+    assert [its["session"] for its in told] == ranks * [session.id]
+    for rank, its in enumerate(told):
+        first, not_finite, not_three, no_index, *others = its["results"]
+        assert first is True and others == [True, True] and its["dropped"] == 0
+        assert not_finite == told[0]["results"][1] and not_three == told[0]["results"][2]
+        for (kind, text), words in (not_finite, "nan"), (not_three, "(1, 2)"), (no_index, "nan" if rank else "index"):
+            assert kind == "InvalidInput" and words in text, text
+    for index, frame in seen.items():
+        step = round(frame.time / 0.5)
+        x, marks = particles_of(step), marks_of(step)
+        whole = meniscus.reconstruct(x, particle_radius, attributes={"mark": marks})
+        assert frame.mesh.sha256() == whole.sha256(), index
+        assert sorted(frame.mesh.attributes["mark"]) == sorted(whole.attributes["mark"])
+        assert frame.statistics.particles == len(x)
+
+
+def test_a_server_that_is_not_there_and_wrong_options_are_told_by_all_ranks():
+    mpi = pytest.importorskip("meniscus.mpi")
+    with pytest.raises(meniscus.ServerError, match="rank 0: .*unix:/nowhere"):
+        mpi.Parts(mpi.MPI.COMM_SELF, particle_radius, server="unix:/nowhere")
+    for options, text in (
+        ({"reconstruct_ranks": 2}, "reconstruct-ranks.* is 2, must be at most the 1 ranks"),
+        ({"run": 1}, "the ranks agree on it"),
+        ({"colour": 1}, "colour"),
+    ):
+        with pytest.raises(meniscus.InvalidInput, match=text):
+            mpi.Parts(mpi.MPI.COMM_SELF, particle_radius, server="unix:/nowhere", **options)
