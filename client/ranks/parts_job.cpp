@@ -4,6 +4,7 @@
 #include <random>
 
 #include "meniscus/client/errors.hpp"
+#include "meniscus/error.hpp"
 #include "ranks/agreed.hpp"
 
 namespace meniscus::ranks {
@@ -23,10 +24,20 @@ PartsJob::PartsJob(PartExchange& exchange, bool leads_node, const text_options::
     const std::vector<std::string> all = agreed(exchange_, [&] {
         arguments = parts_arguments(options);
         publisher_.emplace(*arguments);
-        return std::to_string(drawn_run()) + (leads_node ? "+" : "-");
+        return std::to_string(drawn_run()) + (leads_node ? "+" : "-") + arguments->common;
     });
     std::vector<bool> lead_nodes;
-    for (const std::string& its : all) lead_nodes.push_back(its.back() == '+');
+    std::vector<std::string> options_of;
+    for (const std::string& its : all) {
+        const std::size_t sign = its.find_first_of("+-");
+        lead_nodes.push_back(its[sign] == '+');
+        options_of.push_back(its.substr(sign + 1));
+        // Known to all: all throw.
+        if (options_of.back() != options_of.front())
+            throw InvalidInput("rank " + std::to_string(options_of.size() - 1) + " has the options " +
+                               options_of.back() + ", and rank 0 has " + options_of.front() +
+                               ": all must have the same, but for the server, the connection and the backend");
+    }
     const std::vector<std::size_t> makers = ranks_of(arguments->makers, lead_nodes);
     agreed(exchange_, [&] {
         live_.emplace(arguments->settings, arguments->backend, PartsOptions{makers.size(), arguments->overlap, makers},

@@ -32,6 +32,7 @@ struct PartsArguments {
     Makers makers;
     CodingOptions coding;  ///< of the bricks, but for the attributes
     std::vector<AttributeWish> wishes;
+    std::string common;  ///< the options that all ranks have the same, as NAME=VALUE: not where one is or connects
 };
 
 /// The options that are of parts alone.

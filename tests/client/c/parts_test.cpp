@@ -152,6 +152,23 @@ TEST_F(CParts, AreAllRefusedWhatOneIsRefused) {
     });
 }
 
+TEST_F(CParts, AreRefusedOptionsThatDifferFromRankToRank) {
+    on_ranks(3, [&](const meniscus_exchange& exchange) {
+        meniscus_parts* parts = nullptr;
+        const auto refusal = [&](const char* name, const char* value) {
+            const COptions given = options(exchange.rank == 1 ? Values{{name, value}} : Values{});
+            return meniscus_parts_open(&exchange, given.get(), &parts);
+        };
+        for (const auto& [name, value] :
+             {std::pair{"reconstruct-ranks", "4"}, {"reconstruct-ranks", "2"}, {"cell-size", "0.5"}, {"overlap", "9"}})
+            EXPECT_TRUE(refused(refusal(name, value), MENISCUS_INVALID_INPUT, "rank 1 has the options "))
+                << name << " " << value;
+        // Those of its own.
+        EXPECT_EQ(refusal("memory-limit", "1000000000"), MENISCUS_OK) << meniscus_error_message();
+        EXPECT_EQ(meniscus_parts_free(parts), MENISCUS_OK) << meniscus_error_message();
+    });
+}
+
 TEST_F(CParts, RefuseParticlesOnAllRanksAndGoOn) {
     on_ranks(2, [&](const meniscus_exchange& exchange) {
         const COptions given = options({{"policy", "every-frame"}});

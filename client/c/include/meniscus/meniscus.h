@@ -363,12 +363,13 @@ typedef struct meniscus_exchange {
                                        be NULL */
 } meniscus_exchange;
 
-/* Called by all ranks together with the same options; opens the session. options: server (HOST:PORT, required), those
- * of meniscus_client_connect(), of meniscus_reconstructor_create() and of meniscus_publisher_open() but nth, parts,
- * part and run; reconstruct-ranks (the ranks that reconstruct and publish: node, the default, is one of each machine;
- * all; or a number of them), overlap (base cells, default 4), policy (of frames that come while one is being
- * reconstructed: latest, the default, leaves them out; every-frame waits). A frame has at most 256 publishers. A rank
- * that fails makes all fail, here and below; the message names it. */
+/* Called by all ranks together with the same options, but for the server, the connection and the backend; opens the
+ * session. options: server (HOST:PORT, required), those of meniscus_client_connect(), of
+ * meniscus_reconstructor_create() and of meniscus_publisher_open() but nth, parts, part and run; reconstruct-ranks (the
+ * ranks that reconstruct and publish: node, the default, is one of each machine; all; or a number of them), overlap
+ * (base cells, default 4), policy (of frames that come while one is being reconstructed: latest, the default, leaves
+ * them out; every-frame waits). A frame has at most 256 publishers. A rank that fails makes all fail, here and below;
+ * the message names it. */
 MENISCUS_API meniscus_result meniscus_parts_open(const meniscus_exchange* exchange, const meniscus_options* options,
                                                  meniscus_parts** parts);
 /* Called by all ranks together. particles: those that this rank owns, wherever they are, also none; each particle of
