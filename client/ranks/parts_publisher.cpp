@@ -27,6 +27,8 @@ void PartsPublisher::open(std::size_t part, std::size_t parts, std::uint64_t run
     if (!session_id.empty()) session_.insert_or_assign("session", session_id);
     open();
     session_id_ = upload_->session_id();
+    // A server that starts is waited for, one that went away is not.
+    connection_.erase("wait");
     session_.insert_or_assign("session", session_id_);
 }
 

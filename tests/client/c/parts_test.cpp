@@ -243,6 +243,7 @@ TEST(CPartsOfAServer, GoOnWhileItIsAwayAndOnceItIsBack) {
     on_ranks(2, [&](const meniscus_exchange& exchange) {
         const COptions given = options_of({{"particle-radius", "0.025"},
                                            {"threads", "1"},
+                                           {"wait", "3600"},
                                            {"reconstruct-ranks", "all"},
                                            {"policy", "every-frame"},
                                            {"server", address.c_str()}});
@@ -259,6 +260,10 @@ TEST(CPartsOfAServer, GoOnWhileItIsAwayAndOnceItIsBack) {
         EXPECT_TRUE(refused(result, MENISCUS_UNAVAILABLE, "rank "));
         while (push(parts, exchange, frame++) != MENISCUS_WOULD_WAIT) {
         }
+        // Another attempt fails: `wait` was for the begin.
+        while ((result = push(parts, exchange, frame++)) >= 0) {
+        }
+        EXPECT_TRUE(refused(result, MENISCUS_UNAVAILABLE, "rank "));
         together.arrive_and_wait();
         if (exchange.rank == 0) start();
         together.arrive_and_wait();
