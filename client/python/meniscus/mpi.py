@@ -55,12 +55,18 @@ class Parts:
         attributes: Union[str, Sequence[str]] = "all",
         **options: Any,
     ) -> None:
-        texts = option_texts({"particle_radius": particle_radius, "server": server, **options})
-        if "id" in texts:
-            texts["session"] = texts.pop("id")
-        texts["attribute"] = names_text(attributes)
+        texts: dict[str, str] = {}
+        wrong: Optional[str] = None
+        try:
+            texts = option_texts({"particle_radius": particle_radius, "server": server, **options})
+            if "id" in texts:
+                texts["session"] = texts.pop("id")
+            texts["attribute"] = names_text(attributes)
+        except InvalidInput as error:
+            wrong = str(error)
         self._exchange: Optional[_Exchange] = _Exchange(comm)
         try:
+            self._exchange.refuse(wrong)
             self._raw: Optional[_meniscus.Parts] = _meniscus.make_parts(self._exchange, texts)
         except BaseException:
             self._exchange.free()
@@ -145,6 +151,12 @@ class _Exchange:
         self.leads_node = node.rank == 0
         node.Free()
 
+    def refuse(self, wrong: Optional[str]) -> None:
+        """Raises InvalidInput on all ranks for what is wrong on one; None: nothing is."""
+        for rank, its in enumerate(self._comm.allgather(wrong)):
+            if its is not None:
+                raise InvalidInput(f"rank {rank}: {its}")
+
     def gather(self, mine: bytes) -> list[bytes]:
         """The bytes of all, by rank."""
         sizes = self._comm.allgather(len(mine))
@@ -168,11 +180,12 @@ class _Exchange:
             after, before = (self.rank + turn) % self.ranks, (self.rank - turn) % self.ranks
             piece = bytearray(sizes[before])
             for at in range(0, max(len(to[after]), sizes[before]), _MOST):
+                # Ranks come to different numbers of pieces: no empty one is sent.
                 self._comm.Sendrecv(
                     memoryview(to[after])[at : at + _MOST],
-                    after,
+                    after if at < len(to[after]) else MPI.PROC_NULL,
                     recvbuf=memoryview(piece)[at : at + _MOST],
-                    source=before,
+                    source=before if at < sizes[before] else MPI.PROC_NULL,
                 )
             received[before] = bytes(piece)
         return received

@@ -50,9 +50,10 @@ def test_the_ranks_of_a_job_make_the_surface_of_one_process_and_fail_together(cl
                     break
     assert [its["session"] for its in told] == ranks * [session.id]
     for rank, its in enumerate(told):
-        first, not_finite, not_three, no_index, *others = its["results"]
-        assert first is True and others == [True, True] and its["dropped"] == 0
-        assert not_finite == told[0]["results"][1] and not_three == told[0]["results"][2]
+        trades, no_names, first, not_finite, not_three, no_index, *others = its["results"]
+        assert no_names == ["InvalidInput", f"rank {ranks - 1}: attributes is 5, must be 'all', a name, or names"]
+        assert trades is True and first is True and others == [True, True] and its["dropped"] == 0
+        assert not_finite == told[0]["results"][3] and not_three == told[0]["results"][4]
         for (kind, text), words in (not_finite, "nan"), (not_three, "(1, 2)"), (no_index, "nan" if rank else "index"):
             assert kind == "InvalidInput" and words in text, text
     for index, frame in seen.items():

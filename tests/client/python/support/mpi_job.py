@@ -21,9 +21,22 @@ def pushed(push):
         return [type(error).__name__, str(error)]
 
 
+def trades_pieces(ranks):
+    """Whether messages come whole that are longer than one of MPI, and of unequal lengths."""
+    most, meniscus.mpi._MOST = meniscus.mpi._MOST, 10
+    exchange = meniscus.mpi._Exchange(ranks)
+    own, all_ranks = ranks.rank, range(ranks.size)
+    traded = exchange.trade([bytes([own]) * (11 * own * to) for to in all_ranks])
+    exchange.free()
+    meniscus.mpi._MOST = most
+    return traded == [bytes([by]) * (11 * by * own) for by in all_ranks]
+
+
 def main(address, session, frames):
     ranks = MPI.COMM_WORLD
-    results = []
+    results = [trades_pieces(ranks)]
+    names = 5 if ranks.rank == ranks.size - 1 else "all"
+    results.append(pushed(lambda: meniscus.mpi.Parts(ranks, particle_radius, server=address, attributes=names)))
     with meniscus.mpi.Parts(
         ranks, particle_radius, server=address, id=session, policy="every-frame", reconstruct_ranks="all"
     ) as parts:
