@@ -69,11 +69,14 @@ auto PartsJob::in_words_of_server(const Call& call) {
 }
 
 bool PartsJob::push(const FrameGiver& mine, std::uint64_t index, double simulation_time) {
+    // The same in all ranks.
+    if (is_finished_) throw InvalidInput("the frames are finished: push others to parts that are opened anew");
     return in_words_of_server([&] { return live_->push(mine, index, simulation_time); });
 }
 
 void PartsJob::finish() {
     in_words_of_server([&] { live_->finish(); });
+    is_finished_ = true;
     agreed(exchange_, [&] {
         if (is_maker_) publisher_->finish();
         return std::string();

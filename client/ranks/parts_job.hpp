@@ -25,9 +25,10 @@ public:
 
     /// As LiveParts::push(), with client::ServerError in place of PublishingFailed. mine: may throw.
     bool push(const FrameGiver& mine, std::uint64_t index, double simulation_time);
-    /// Publishes what was pushed, and waits until the server has answered.
+    /// Publishes what was pushed, and waits until the server has answered. No frame may follow once it has.
     void finish();
     const std::string& session_id() const { return session_id_; }
+    std::uint64_t next_index() const { return live_->next_index(); }
     std::uint64_t dropped() const { return live_->dropped(); }
 
 private:
@@ -41,6 +42,7 @@ private:
     std::optional<LiveParts> live_;  ///< goes first
     std::string session_id_;
     bool is_maker_ = false;
+    bool is_finished_ = false;
 };
 
 }  // namespace meniscus::ranks

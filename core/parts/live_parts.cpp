@@ -49,6 +49,7 @@ public:
         while (!come_together({.ends = true}, [] {})) worker_.wait();
     }
 
+    std::uint64_t next_index() const { return last_index_ ? *last_index_ + 1 : 0; }
     std::uint64_t dropped() const { return dropped_; }
 
 private:
@@ -197,6 +198,10 @@ bool LiveParts::push(const FrameGiver& mine, std::uint64_t index, double simulat
 
 void LiveParts::finish() {
     impl_->finish();
+}
+
+std::uint64_t LiveParts::next_index() const {
+    return impl_->next_index();
 }
 
 std::uint64_t LiveParts::dropped() const {

@@ -108,7 +108,8 @@ class Parts:
         return self._opened().push(frame, index, time)
 
     def finish(self) -> None:
-        """Publishes what was pushed, and waits until the server has answered. Raises as push()."""
+        """Publishes what was pushed, and waits until the server has answered; no frame may follow. Raises as
+        push()."""
         self._opened().finish()
 
     def close(self) -> None:

@@ -71,6 +71,8 @@ public:
     }
     /// Waits until all that was pushed has been published. Throws likewise.
     void finish();
+    /// The least that the next frame may have, the same in all processes.
+    std::uint64_t next_index() const;
     /// Frames left out so far.
     std::uint64_t dropped() const;
 

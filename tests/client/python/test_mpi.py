@@ -76,3 +76,19 @@ def test_a_server_that_is_not_there_and_wrong_options_are_told_by_all_ranks():
     ):
         with pytest.raises(meniscus.InvalidInput, match=text):
             mpi.Parts(mpi.MPI.COMM_SELF, particle_radius, server="unix:/nowhere", **options)
+
+
+def test_a_call_within_another_and_a_frame_after_the_end_are_refused(server):
+    mpi = pytest.importorskip("meniscus.mpi")
+
+    class Nested:
+        def __array__(self, *_, **__):
+            parts.finish()
+
+    with mpi.Parts(mpi.MPI.COMM_SELF, particle_radius, server=server.address) as parts:
+        with pytest.raises(meniscus.InvalidInput, match="another call, which must return"):
+            parts.push(Nested())
+        assert parts.push(particles_of(0))
+        parts.finish()
+        with pytest.raises(meniscus.InvalidInput, match="the frames are finished"):
+            parts.push(particles_of(1))

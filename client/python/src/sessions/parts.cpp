@@ -1,5 +1,5 @@
 // The class _meniscus.Parts: frames of a job's ranks.
-#include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <exception>
 #include <limits>
@@ -52,6 +52,21 @@ py::tuple arrays_of(const py::function& frame) {
     }
 }
 
+/// One call at a time: of two threads that call, no rank could know which comes first in the others.
+class OnlyCall {
+public:
+    explicit OnlyCall(std::atomic_flag& is_called) : is_called_(is_called) {
+        if (is_called_.test_and_set())
+            throw InvalidInput("these parts are in another call, which must return before the next one begins");
+    }
+    ~OnlyCall() { is_called_.clear(); }
+    OnlyCall(const OnlyCall&) = delete;
+    OnlyCall& operator=(const OnlyCall&) = delete;
+
+private:
+    std::atomic_flag& is_called_;
+};
+
 class RankParts {
 public:
     RankParts(py::object exchange, const text_options::Options& options)
@@ -69,8 +84,9 @@ public:
 
     bool push(const py::function& frame, const py::object& index, const py::object& time) {
         require_own_process();
+        const OnlyCall call(is_called_);
         const Computation pushing;
-        const FramePlace place(index, time, next_);
+        const FramePlace place(index, time, job_->next_index());
         bool is_taken = false;
         try {
             without_lock([&] {
@@ -85,15 +101,14 @@ public:
                     place.index, place.time);
             });
         } catch (...) {
-            note(place.index);
             if (place.wrong) std::rethrow_exception(place.wrong);
             throw;
         }
-        note(place.index);
         return is_taken;
     }
     void finish() {
         require_own_process();
+        const OnlyCall call(is_called_);
         const Computation finishing;
         without_lock([this] { job_->finish(); });
     }
@@ -101,12 +116,10 @@ public:
     std::uint64_t dropped() const { return job_->dropped(); }
 
 private:
-    void note(std::uint64_t index) { next_ = std::max(next_, index + 1); }
-
     py::object ranks_;
     RankExchange exchange_;
     OwnedFrame frame_;
-    std::uint64_t next_ = 0;
+    std::atomic_flag is_called_;
     std::optional<ranks::PartsJob> job_;  ///< goes first
 };
 

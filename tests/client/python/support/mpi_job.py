@@ -52,7 +52,7 @@ def main(address, session, frames):
                 results.append(pushed(lambda: parts.push(wrong, attributes=one)))
                 shape = (1, 2) if ranks.rank == 0 else (1, 3)
                 results.append(pushed(lambda: parts.push(np.zeros(shape), attributes=one)))
-                results.append(pushed(lambda: parts.push(x, index="x" if ranks.rank == 0 else None)))
+                results.append(pushed(lambda: parts.push(x, index="x" if ranks.rank == 0 else 9)))
         session_id, dropped = parts.session_id, parts.dropped
     lines = ranks.gather({"results": results, "session": session_id, "dropped": dropped})
     if ranks.rank == 0:
