@@ -205,7 +205,14 @@ private:
             UnequalSeams unequal = compare_seams(all_.seams, own_);
             report_.unequal_seams += unequal.count;
             wanted_ = std::move(unequal.parts);
-            for (const std::size_t part : wanted_) overlaps_[part] = std::min(2 * overlaps_[part], max_overlap);
+            for (const std::size_t part : wanted_) {
+                // Such a part has settled the whole frame.
+                if (overlaps_[part] == max_overlap)
+                    throw ProcessFailed("part " + std::to_string(part) +
+                                        " fits to its neighbors at no overlap: all processes of a frame must run the "
+                                        "same version with the same settings");
+                overlaps_[part] = std::min(2 * overlaps_[part], max_overlap);
+            }
         });
     }
 
