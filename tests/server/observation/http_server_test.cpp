@@ -106,8 +106,9 @@ TEST(HttpServer, RefusesAHeaderPastItsLimit) {
     const auto answer_to_header_of = [&](std::size_t bytes) {
         const std::string start = "GET /one HTTP/1.1\r\nHost: test\r\nX: ";
         const std::string end = "\r\n\r\n";
-        HttpClient client(server.address());
-        client.send(start + std::string(bytes - start.size() - end.size(), 'x') + end);
+        const std::string request = start + std::string(bytes - start.size() - end.size(), 'x') + end;
+        HttpClient client(server.address());  // which has to send it soon
+        client.send(request);
         return client.receive();
     };
     EXPECT_EQ(answer_to_header_of(1024).status, 200);
