@@ -100,7 +100,7 @@ private:
     template <class T>
     void copy(T* to, std::size_t count) {
         if (count > left_.size() / sizeof(T)) refuse();
-        if (count != 0) std::memcpy(to, left_.data(), count * sizeof(T));
+        if (count != 0) std::memcpy(static_cast<void*>(to), left_.data(), count * sizeof(T));
         left_ = left_.subspan(count * sizeof(T));
     }
 
