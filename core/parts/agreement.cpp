@@ -8,7 +8,7 @@
 namespace meniscus {
 namespace {
 
-enum class Kind : std::uint8_t { none, invalid_input, limit_exceeded, other };
+enum class Kind : std::uint8_t { no_failure, invalid_input, limit_exceeded, other };
 
 PartExchange::Bytes message_of(Kind kind, std::string_view text) {
     PartExchange::Bytes bytes;
@@ -51,7 +51,7 @@ std::vector<Agreement::Bytes> Agreement::opened(std::vector<Bytes> from) {
         if (bytes.empty()) throw ProcessFailed("rank " + std::to_string(rank) + ": it runs another version");
         const auto kind = static_cast<Kind>(bytes.back());
         bytes.pop_back();
-        if (kind != Kind::none) throw_from(rank, kind, bytes);
+        if (kind != Kind::no_failure) throw_from(rank, kind, bytes);
     }
     return from;
 }
