@@ -2,7 +2,6 @@
 // them, all parts together give the whole's mesh.
 #include <gtest/gtest.h>
 
-#include <barrier>
 #include <cmath>
 #include <functional>
 #include <mutex>
@@ -82,7 +81,7 @@ TEST(Processes, ChooseTheSameAttributesWhicheverHadParticlesFirst) {
     std::vector<test::ParticlesWithArrays> of_rank(2);
     std::mutex mutex;
     std::vector<test::FrameOfParts> results(2);
-    std::barrier between(static_cast<std::ptrdiff_t>(of_rank.size()));
+    test::Barrier between(of_rank.size());
     test::on_ranks(of_rank.size(), [&](test::ThreadExchange& exchange) {
         const std::size_t rank = exchange.rank();
         test::ParticlesWithArrays& mine = of_rank[rank];

@@ -1,12 +1,12 @@
 // Threads that stand for the processes of one surface.
 #pragma once
 
-#include <barrier>
 #include <cstddef>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "barrier.hpp"
 #include "meniscus/parts.hpp"
 
 namespace meniscus::test {
@@ -14,7 +14,7 @@ namespace meniscus::test {
 /// The place where threads that stand for processes exchange.
 class Meeting {
 public:
-    explicit Meeting(std::size_t ranks) : barrier_(static_cast<std::ptrdiff_t>(ranks)), given_(ranks) {}
+    explicit Meeting(std::size_t ranks) : barrier_(ranks), given_(ranks) {}
     std::size_t ranks() const { return given_.size(); }
     /// Gives what one has for each of the others; returns what each has for this one.
     std::vector<PartExchange::Bytes> exchange(std::size_t rank, std::vector<PartExchange::Bytes> to) {
@@ -27,7 +27,7 @@ public:
     }
 
 private:
-    std::barrier<> barrier_;
+    Barrier barrier_;
     std::vector<std::vector<PartExchange::Bytes>> given_;
 };
 
