@@ -1,14 +1,13 @@
 // libcatalyst-meniscus.so in a simulation of several ranks under mpirun.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "../c/through_server.hpp"
+#include "../mpi/mpi_process.hpp"
 #include "meniscus/meniscus.hpp"
 #include "support/particles.hpp"
 
@@ -21,38 +20,8 @@ constexpr const char* session_id = "6f1c2f0e-5a52-4a86-9c6b-0f8f5f0a4242";
 class Simulation {
 public:
     /// last: an option of the last rank alone; null for none.
-    Simulation(int ranks, const std::string& implementation, const std::string& options, const char* last = nullptr) {
-        ::setenv("CATALYST_IMPLEMENTATION_NAME", "meniscus", 1);
-        ::setenv("CATALYST_IMPLEMENTATION_PATHS", implementation.c_str(), 1);
-        ::setenv("MENISCUS_CATALYST", options.c_str(), 1);
-        // Open MPI runs neither as root nor more ranks than cores unless it is told to; other MPIs pass these over.
-        ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
-        ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-        ::setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
-        int down[2];
-        int up[2];
-        EXPECT_EQ(::pipe2(down, O_CLOEXEC), 0);
-        EXPECT_EQ(::pipe2(up, O_CLOEXEC), 0);
-        const std::string count = std::to_string(ranks);
-        pid_ = ::fork();
-        if (pid_ == 0) {
-            ::dup2(down[0], STDIN_FILENO);
-            ::dup2(up[1], STDOUT_FILENO);
-            ::execl(MENISCUS_MPIEXEC, MENISCUS_MPIEXEC, "-n", count.c_str(), MENISCUS_SIMULATION, last, nullptr);
-            ::_exit(127);
-        }
-        ::close(down[0]);
-        ::close(up[1]);
-        to_ = ::fdopen(down[1], "w");
-        from_ = ::fdopen(up[0], "r");
-    }
-    ~Simulation() {
-        end();
-        std::fclose(from_);
-        ::waitpid(pid_, nullptr, 0);
-    }
-    Simulation(const Simulation&) = delete;
-    Simulation& operator=(const Simulation&) = delete;
+    Simulation(int ranks, const std::string& implementation, const std::string& options, const char* last = nullptr)
+        : process_(ranks, command(implementation, options, last)) {}
 
     struct Answer {
         int best = -1;    ///< the smallest status of a rank
@@ -61,23 +30,28 @@ public:
     };
     Answer answer() {
         Answer answer;
-        EXPECT_EQ(std::fscanf(from_, "%d %d %ld", &answer.best, &answer.status, &answer.sent), 3);
+        EXPECT_EQ(std::fscanf(process_.output(), "%d %d %ld", &answer.best, &answer.status, &answer.sent), 3);
         return answer;
     }
     Answer execute(std::int64_t step) {
-        std::fprintf(to_, "%ld\n", static_cast<long>(step));
-        std::fflush(to_);
+        process_.write(std::to_string(step) + "\n");
         return answer();
     }
     /// After it comes finalize's answer.
-    void end() {
-        if (to_ != nullptr) std::fclose(std::exchange(to_, nullptr));
-    }
+    void end() { process_.end_input(); }
 
 private:
-    pid_t pid_ = -1;
-    std::FILE* to_ = nullptr;
-    std::FILE* from_ = nullptr;
+    static std::vector<std::string> command(const std::string& implementation, const std::string& options,
+                                            const char* last) {
+        ::setenv("CATALYST_IMPLEMENTATION_NAME", "meniscus", 1);
+        ::setenv("CATALYST_IMPLEMENTATION_PATHS", implementation.c_str(), 1);
+        ::setenv("MENISCUS_CATALYST", options.c_str(), 1);
+        std::vector<std::string> words{MENISCUS_SIMULATION};
+        if (last != nullptr) words.emplace_back(last);
+        return words;
+    }
+
+    MpiProcess process_;
 };
 
 class CatalystRanks : public CThroughServer {

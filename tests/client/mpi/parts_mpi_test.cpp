@@ -1,8 +1,5 @@
 // The ranks of an MPI job make one surface, whoever owns the particles: that of one process.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstdio>
@@ -10,10 +7,13 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "../c/through_server.hpp"
 #include "meniscus/meniscus.hpp"
+#include "mpi_process.hpp"
 #include "support/particles.hpp"
 
 namespace meniscus::test {
@@ -22,48 +22,14 @@ namespace {
 /// parts_job under mpirun, step by step.
 class Job {
 public:
-    explicit Job(int ranks, std::vector<std::string> arguments) {
-        // Open MPI runs neither as root nor more ranks than cores unless it is told to; other MPIs pass these over.
-        ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
-        ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-        ::setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
-        arguments.insert(arguments.begin(), {MENISCUS_MPIEXEC, "-n", std::to_string(ranks), MENISCUS_JOB});
-        std::vector<char*> argv;
-        for (std::string& argument : arguments) argv.push_back(argument.data());
-        argv.push_back(nullptr);
-        int down[2];
-        int up[2];
-        EXPECT_EQ(::pipe2(down, O_CLOEXEC), 0);
-        EXPECT_EQ(::pipe2(up, O_CLOEXEC), 0);
-        pid_ = ::fork();
-        if (pid_ == 0) {
-            ::dup2(down[0], STDIN_FILENO);
-            ::dup2(up[1], STDOUT_FILENO);
-            ::execv(MENISCUS_MPIEXEC, argv.data());
-            ::_exit(127);
-        }
-        ::close(down[0]);
-        ::close(up[1]);
-        to_ = ::fdopen(down[1], "w");
-        from_ = ::fdopen(up[0], "r");
-    }
-    ~Job() {
-        std::fclose(to_);
-        std::fclose(from_);
-        ::waitpid(pid_, nullptr, 0);
-    }
-    Job(const Job&) = delete;
-    Job& operator=(const Job&) = delete;
+    Job(int ranks, std::vector<std::string> arguments) : process_(ranks, with_program(std::move(arguments))) {}
 
-    void go_on() {
-        std::fputc('\n', to_);
-        std::fflush(to_);
-    }
+    void go_on() { process_.write("\n"); }
     /// Its next line, but for those of process ids.
     std::string line() {
         std::array<char, 1024> text{};
         do {
-            if (std::fgets(text.data(), text.size(), from_) == nullptr) return "nothing";
+            if (std::fgets(text.data(), text.size(), process_.output()) == nullptr) return "nothing";
         } while (std::string_view(text.data()).starts_with("pid "));
         std::string line = text.data();
         line.erase(line.find_last_not_of(" \n") + 1);
@@ -71,9 +37,12 @@ public:
     }
 
 private:
-    pid_t pid_ = -1;
-    std::FILE* to_ = nullptr;
-    std::FILE* from_ = nullptr;
+    static std::vector<std::string> with_program(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), MENISCUS_JOB);
+        return arguments;
+    }
+
+    MpiProcess process_;
 };
 
 class MpiParts : public CThroughServer {
