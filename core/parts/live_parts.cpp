@@ -2,12 +2,11 @@
 #include "meniscus/live_parts.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "meniscus/error.hpp"
+#include "meniscus/frame_order.hpp"
 #include "parts/agreement.hpp"
 #include "parts/presence.hpp"
 #include "parts/worker.hpp"
@@ -25,14 +24,8 @@ public:
           agreement_(exchange) {}
 
     bool push(const FrameGiver& given, std::uint64_t index, double simulation_time) {
-        const bool are_free = come_together({.index = index, .simulation_time = simulation_time}, [&] {
-            if (last_index_ && index <= *last_index_)
-                throw InvalidInput("frame index " + std::to_string(index) + " after " + std::to_string(*last_index_) +
-                                   "; indices must increase");
-            if (!std::isfinite(simulation_time))
-                throw InvalidInput("frame " + std::to_string(index) + ": simulation_time is " +
-                                   std::to_string(simulation_time) + "; it must be finite");
-        });
+        const bool are_free = come_together({.index = index, .simulation_time = simulation_time},
+                                            [&] { require_frame_order(last_index_, index, simulation_time); });
         last_index_ = index;
         if (!are_free || !settle(policy_ == LivePolicy::every_frame)) {
             ++dropped_;
@@ -64,7 +57,7 @@ private:
         Statistics statistics;
     };
 
-    /// Whether all processes are free for a frame. check: of this one. Throws in all what one of them has met.
+    /// Whether all processes are free for a frame. check: of this one. An error of one is thrown by all.
     template <class Check>
     bool come_together(Presence mine, const Check& check) {
         if (policy_ == LivePolicy::every_frame) worker_.wait();
@@ -81,7 +74,7 @@ private:
         const auto is_one = [&all](bool Presence::*member) {
             return std::any_of(all.begin(), all.end(), [member](const Presence& its) { return its.*member; });
         };
-        // A failure is told once nobody is at work: all can then close what is open.
+        // A failure is told once no process is at work: all can then close their uploads.
         if (is_one(&Presence::is_at_work)) return false;
         const auto failed =
             std::find_if(all.begin(), all.end(), [](const Presence& its) { return !its.failure.empty(); });

@@ -19,7 +19,6 @@ public:
 
     const std::string& session_id() const override { return upload_.session_id(); }
     void push(const client::ReceivedFrame& frame) override {
-        upload_.require_order(frame.index, frame.simulation_time);
         upload_.write(brick_pieces(frame), frame.index);
         PushProcess::Answer answer;
         do answer = upload_.process().next(std::chrono::milliseconds(0));

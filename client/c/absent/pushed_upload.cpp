@@ -1,12 +1,11 @@
 #include "pushed_upload.hpp"
 
-#include <cmath>
-
 #include "../src/frame.hpp"
 #include "../src/result.hpp"
 #include "../src/timeout.hpp"
 #include "meniscus/client/errors.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/frame_order.hpp"
 #include "push_answer.hpp"
 
 namespace meniscus::c {
@@ -30,12 +29,7 @@ PushedUpload::PushedUpload(const meniscus_client& client, const PushArguments& a
 }
 
 void PushedUpload::require_order(std::uint64_t index, double simulation_time) const {
-    if (last_index_ && index <= *last_index_)
-        throw InvalidInput("frame index " + std::to_string(index) + " after " + std::to_string(*last_index_) +
-                           "; indices must increase");
-    if (!std::isfinite(simulation_time))
-        throw InvalidInput("frame " + std::to_string(index) + ": simulation_time is " +
-                           std::to_string(simulation_time) + "; it must be finite");
+    require_frame_order(last_index_, index, simulation_time);
 }
 
 void PushedUpload::write(std::span<const FramePiece> pieces, std::uint64_t index) {

@@ -9,6 +9,7 @@
 #include "conversion/particle_arrays.hpp"
 #include "conversion/settings_conversion.hpp"
 #include "meniscus/error.hpp"
+#include "meniscus/frame_order.hpp"
 
 namespace meniscus::server {
 
@@ -52,10 +53,7 @@ private:
 
 FramePart FrameAssembler::announce(std::uint64_t index, double simulation_time) const {
     if (in_frame_) throw InvalidInput(fmt::format("frame {} begins before frame {} has ended", index, *index_));
-    if (index_ && index <= *index_)
-        throw InvalidInput(fmt::format("frame index {} after {}; indices must increase", index, *index_));
-    if (!std::isfinite(simulation_time))
-        throw InvalidInput(fmt::format("frame {}: simulation_time is {}; it must be finite", index, simulation_time));
+    require_frame_order(index_, index, simulation_time);
     FramePart part;
     part.index = index;
     part.simulation_time = simulation_time;
