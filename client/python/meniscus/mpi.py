@@ -1,6 +1,6 @@
 """Surfaces of the particles of an MPI job, made by its ranks beside the simulation: needs mpi4py.
 
-Each rank pushes the particles that it owns; nobody gathers them. Some ranks reconstruct a part of each frame, and
+Each rank pushes the particles that it owns; they are gathered nowhere. Some ranks reconstruct a part of each frame, and
 publish it to a session of a server, where watchers get one surface: to the bit that of the whole frame.
 
     >>> from mpi4py import MPI
@@ -26,6 +26,8 @@ from .types import ArrayLike, Real, Whole
 #: Most bytes of one message: MPI counts in int.
 _MOST = 1 << 30
 
+_Bytes = Union[bytes, bytearray, memoryview]
+
 
 class Parts:
     """The frames of a job's ranks. All calls are made by all ranks together, in the same order; MPI is called in them
@@ -43,7 +45,8 @@ class Parts:
     At the end of a ``with`` block the last frame is published. After an exception it is not, and other ranks wait: let
     the job end as MPI jobs do, by ``MPI.COMM_WORLD.Abort()`` or by ``python3 -m mpi4py``.
 
-    Raises InvalidInput for what is wrong; whatever one rank raises, all do, with its number.
+    Raises InvalidInput for a wrong argument, ServerError for a server that is not there; an error of one rank is raised
+    on all, with its number.
     """
 
     def __init__(
@@ -97,9 +100,9 @@ class Parts:
         The arrays are those of Reconstructor.reconstruct(). ``time`` and ``index`` are the same on all ranks; index is
         greater than the one before, and None is the one after it, from 0.
 
-        Raises InvalidInput, LimitExceeded or Error, on all ranks alike, also for what the frame before has met; the
-        next frame may come. A server that is away raises Error once for each attempt to reach it again, and frames are
-        left out meanwhile.
+        Raises InvalidInput, LimitExceeded, ServerError or Error, on all ranks alike, also for the frame before; the
+        next frame may come. A server that is away raises ServerError (unavailable) once for each attempt to reach it
+        again, and frames are left out meanwhile.
         """
 
         def frame() -> arrays.Frame:
@@ -158,7 +161,7 @@ class _Exchange:
             if its is not None:
                 raise InvalidInput(f"rank {rank}: {its}")
 
-    def gather(self, mine: bytes) -> list[bytes]:
+    def gather(self, mine: bytes) -> list[_Bytes]:
         """The bytes of all, by rank."""
         sizes = self._comm.allgather(len(mine))
         if sum(sizes) > _MOST:
@@ -169,13 +172,13 @@ class _Exchange:
         together = bytearray(sum(sizes))
         self._comm.Allgatherv(mine, [together, sizes, MPI.BYTE])
         ends = list(itertools.accumulate(sizes))
-        return [bytes(together[end - size : end]) for size, end in zip(sizes, ends)]
+        return [memoryview(together)[end - size : end] for size, end in zip(sizes, ends)]
 
-    def trade(self, to: list[bytes]) -> list[bytes]:
-        """to: for each rank. Returns what each has sent to this one. In turns: to each rank, from the one that is as
+    def trade(self, to: list[bytes]) -> list[_Bytes]:
+        """to: for each rank. Returns the bytes that each has sent to this one. In turns: to each rank, from the one that is as
         far on the other side."""
         sizes = self._comm.alltoall([len(each) for each in to])
-        received = [bytes()] * self.ranks
+        received: list[_Bytes] = [b""] * self.ranks
         received[self.rank] = to[self.rank]
         for turn in range(1, self.ranks):
             after, before = (self.rank + turn) % self.ranks, (self.rank - turn) % self.ranks
@@ -188,7 +191,7 @@ class _Exchange:
                     recvbuf=memoryview(piece)[at : at + _MOST],
                     source=before if at < sizes[before] else MPI.PROC_NULL,
                 )
-            received[before] = bytes(piece)
+            received[before] = piece
         return received
 
     def free(self) -> None:

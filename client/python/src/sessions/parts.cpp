@@ -92,7 +92,7 @@ public:
             without_lock([&] {
                 is_taken = job_->push(
                     [&] {
-                        with_lock_again([&] {
+                        with_lock([&] {
                             const py::tuple arrays = arrays_of(frame);
                             frame_.take(given_frame(arrays[0], arrays[1], arrays[2]));
                         });

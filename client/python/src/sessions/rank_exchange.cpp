@@ -2,9 +2,7 @@
 
 #include <pybind11/stl.h>
 
-#include <exception>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "meniscus/error.hpp"
@@ -21,18 +19,6 @@ py::bytes bytes_out(const PartExchange::Bytes& bytes) {
 
 }  // namespace
 
-void with_lock_again(const std::function<void()>& work) {
-    std::exception_ptr raised;
-    with_lock([&] {
-        try {
-            work();
-        } catch (...) {
-            raised = std::current_exception();
-        }
-    });
-    if (raised) std::rethrow_exception(std::move(raised));
-}
-
 RankExchange::RankExchange(const py::object& exchange)
     : exchange_(exchange),
       rank_(exchange.attr("rank").cast<std::size_t>()),
@@ -44,13 +30,13 @@ RankExchange::RankExchange(const py::object& exchange)
 
 std::vector<PartExchange::Bytes> RankExchange::gather(Bytes mine) {
     std::vector<Bytes> all;
-    with_lock_again([&] { all = bytes_of_ranks(exchange_.attr("gather")(bytes_out(mine))); });
+    with_lock([&] { all = bytes_of_ranks(exchange_.attr("gather")(bytes_out(mine))); });
     return all;
 }
 
 std::vector<PartExchange::Bytes> RankExchange::all_to_all(std::vector<Bytes> to) {
     std::vector<Bytes> from;
-    with_lock_again([&] {
+    with_lock([&] {
         py::list given;
         for (Bytes& bytes : to) {
             given.append(bytes_out(bytes));
@@ -64,9 +50,9 @@ std::vector<PartExchange::Bytes> RankExchange::all_to_all(std::vector<Bytes> to)
 std::vector<PartExchange::Bytes> RankExchange::bytes_of_ranks(const py::object& list) const {
     std::vector<Bytes> all;
     for (const py::handle each : list) {
-        const auto text = each.cast<std::string_view>();
-        const auto* const begin = reinterpret_cast<const std::byte*>(text.data());
-        all.emplace_back(begin, begin + text.size());
+        const py::buffer_info bytes = each.cast<py::buffer>().request();
+        const auto* const begin = static_cast<const std::byte*>(bytes.ptr);
+        all.emplace_back(begin, begin + bytes.size * bytes.itemsize);
     }
     if (all.size() != ranks_)
         throw InvalidInput("the exchange has given the bytes of " + std::to_string(all.size()) + " ranks, must be of " +

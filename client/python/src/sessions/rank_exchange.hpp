@@ -4,18 +4,17 @@
 #include <pybind11/pybind11.h>
 
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 #include "meniscus/parts.hpp"
 
 namespace meniscus::python {
 
-/// Its functions are called without the interpreter's lock, and throw what Python has raised.
+/// Its functions are called without the interpreter's lock, and throw the errors that Python raises.
 class RankExchange final : public PartExchange {
 public:
-    /// exchange: has rank, ranks, gather(bytes), a list of all ranks' bytes, and trade(list), of bytes to each rank,
-    /// likewise; borrowed, must stay. With the lock.
+    /// exchange: has rank, ranks, gather(bytes), a list of all ranks' bytes or buffers of bytes, and trade(list), of
+    /// bytes to each rank, likewise; borrowed, must stay. With the lock.
     explicit RankExchange(const pybind11::object& exchange);
 
     std::size_t rank() const override { return rank_; }
@@ -31,8 +30,5 @@ private:
     std::size_t rank_;
     std::size_t ranks_;
 };
-
-/// Runs `work` with the interpreter's lock in a thread that has given it back. What it throws is thrown here.
-void with_lock_again(const std::function<void()>& work);
 
 }  // namespace meniscus::python

@@ -39,8 +39,14 @@ void without_lock(const std::function<void()>& work) {
 
 void with_lock(const std::function<void()>& work) {
     const PyGILState_STATE state = taken([] { return PyGILState_Ensure(); });
-    work();
+    std::exception_ptr error;
+    try {
+        work();
+    } catch (...) {
+        error = std::current_exception();
+    }
     PyGILState_Release(state);
+    if (error) std::rethrow_exception(error);
 }
 
 }  // namespace meniscus::python

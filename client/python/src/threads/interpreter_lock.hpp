@@ -26,8 +26,8 @@ private:
 /// Runs `work`, which touches nothing of Python's, without the lock. What it throws is thrown here, with the lock.
 void without_lock(const std::function<void()>& work);
 
-/// Runs `work` in a thread that Python may not know, with the lock. work throws nothing. At the end of the interpreter
-/// the thread rests until the process ends.
+/// Runs `work` in a thread that Python may not know, or that has given the lock back, with the lock. What it throws is
+/// thrown here, without the lock. At the end of the interpreter the thread rests until the process ends.
 void with_lock(const std::function<void()>& work);
 
 }  // namespace meniscus::python
