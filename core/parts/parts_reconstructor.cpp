@@ -108,6 +108,9 @@ public:
     void make(const PartSink& sink) noexcept {
         if (turn_ >= mine_to_make_.size()) return;
         try {
+            // Here, for it goes through all particles; where one process has them all.
+            if (agreement_.ranks() == 1 && turn_ == 0 && report_.parts_made == 0)
+                wrong_radius_ = find_wrong_radius(PlacedFrame(mine_), settings_);
             particles_.begin(facts_.form);
             for (PartExchange::Bytes& bytes : from_) {
                 particles_.add(bytes);
@@ -240,8 +243,7 @@ private:
         // The whole frame is here.
         const PlacedFrame placed(mine_);
         find_warnings(
-            placed, facts_.by_level, settings_, find_wrong_radius(placed, settings_),
-            [&] { return sum.greatest_sample; }, whole);
+            placed, facts_.by_level, settings_, wrong_radius_, [&] { return sum.greatest_sample; }, whole);
     }
 
     Settings settings_;
@@ -260,6 +262,7 @@ private:
     FrameFacts facts_;
     std::vector<BrickBox> own_;
     std::vector<std::uint32_t> overlaps_;
+    std::optional<Warning> wrong_radius_;
     PartsReport report_;
     PartsTold told_;  ///< by this process
     PartsTold all_;   ///< by all
