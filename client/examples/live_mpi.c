@@ -1,5 +1,5 @@
 /* Many ranks, one surface, which they reconstruct themselves: each rank of an MPI job hands over the particles that it
- * owns, and whoever opens the server's viewer (http://127.0.0.1:9464/) sees the surface while the job runs.
+ * owns, and the server's viewer (http://127.0.0.1:9464/) shows the surface while the job runs.
  *
  *   mpicc live_mpi.c -o live_mpi $(pkg-config --cflags --libs meniscus) -lm
  *   mpirun -n 4 ./live_mpi 127.0.0.1:50051

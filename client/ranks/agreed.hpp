@@ -1,4 +1,4 @@
-// What all ranks tell each other while a job opens and ends; what one of them throws, all throw.
+// The words of all ranks while a job opens and ends; an error of one of them is thrown by all.
 #pragma once
 
 #include <concepts>
@@ -22,7 +22,7 @@ struct Told {
 /// ProcessFailed where its code is unknown, and client::ServerError for all others.
 std::vector<std::string> tell_all(PartExchange& exchange, const Told& mine);
 
-/// Those that body() returns in each rank. What it throws in one is thrown in all.
+/// The words that body() returns in each rank. An error of one is thrown by all.
 template <std::invocable Body>
 std::vector<std::string> agreed(PartExchange& exchange, const Body& body) {
     Told mine;

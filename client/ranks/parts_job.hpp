@@ -15,8 +15,8 @@
 
 namespace meniscus::ranks {
 
-/// One in each rank. All functions are called by all ranks together, in the same order; what one rank throws, all
-/// throw, with its number.
+/// One in each rank. All functions are called by all ranks together, in the same order; an error of one rank
+/// is thrown by all, with its number.
 class PartsJob {
 public:
     /// exchange: must stay. leads_node: of one rank of each machine. options: of settings, backend, connection, session

@@ -18,7 +18,7 @@ namespace meniscus::ranks {
 /// Which ranks reconstruct.
 struct Makers {
     bool of_nodes = true;   ///< one of each machine
-    std::size_t count = 0;  ///< else so many, 0: all
+    std::size_t count = 0;  ///< where not `of_nodes`: the number of ranks, 0 for all
 };
 
 struct PartsArguments {

@@ -16,14 +16,12 @@ class PartsPublisher final : public LivePublisher {
 public:
     explicit PartsPublisher(const PartsArguments& arguments);
 
-    /// part: the number of this one among so many. run: names the job's frames. session_id: empty for that of the
-    /// options, or a new one. Throws as open_brick_upload().
+    /// part: the number of this publisher, from 0. parts: the number of publishers. run: names the job's frames.
+    /// session_id: empty for that of the options, or a new one. Throws as open_brick_upload().
     void open(std::size_t part, std::size_t parts, std::uint64_t run, const std::string& session_id);
     const std::string& session_id() const { return session_id_; }
     /// Waits until all is answered.
     void finish();
-    /// Ends the session if this has made it.
-    void close() { upload_ = nullptr; }
 
     /// Opens the session again, if it is not open.
     void publish(const LivePart& part) override;

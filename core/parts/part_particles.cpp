@@ -67,7 +67,7 @@ std::vector<std::byte> particles_within(const ParticleFrame& frame, const Box& b
     const std::vector<std::uint32_t> chosen = are_all_in ? std::vector<std::uint32_t>() : places_within(frame, box);
     const std::size_t count = are_all_in ? frame.count() : chosen.size();
     if (count == 0) return message.take();
-    // With the counts of the arrays, and a byte for who sends it.
+    // With the counts of the arrays, and the byte that Agreement adds.
     std::size_t bytes = (frame.arrays.size() + 3) * sizeof(std::uint64_t) + 1;
     const auto each = [](const auto& values) { return values.empty() ? 0 : sizeof values[0]; };
     bytes += count * (3 * (each(frame.positions) + each(frame.quantized)) + each(frame.levels));

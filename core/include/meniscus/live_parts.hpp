@@ -62,9 +62,9 @@ public:
     /// mine: gives the particles of this process, which are copied, if the frame is not left out. index: greater than
     /// the one before; index and time are the same in all processes. False: the frame is left out, in all of them.
     ///
-    /// What one process throws all throw, with its rank: InvalidInput for particles, an index or a time that cannot be,
-    /// and what the frame before has met, PublishingFailed among it. This frame is then left out, and the next may
-    /// come.
+    /// An error of one process is thrown by all, with its rank: InvalidInput for particles, an index or a time that
+    /// cannot be, and errors of the frame before, PublishingFailed among them. This frame is then left out, and the
+    /// next may come.
     bool push(const FrameGiver& mine, std::uint64_t index, double simulation_time);
     bool push(const ParticleFrame& mine, std::uint64_t index, double simulation_time) {
         return push([&mine] { return mine; }, index, simulation_time);

@@ -72,7 +72,7 @@ struct FinishedPart {
     const Statistics& statistics;
 };
 using PartSink = std::function<void(const FinishedPart&)>;
-/// Gives a frame that stays for the time of the call. What it throws is thrown by all processes.
+/// Gives a frame that stays for the time of the call. Its error is thrown by all processes.
 using FrameGiver = std::function<ParticleFrame()>;
 
 /// Figures of a frame in parts, over all processes, of parts as they were made last.

@@ -348,13 +348,13 @@ typedef struct meniscus_parts meniscus_parts;
 typedef struct meniscus_exchange {
     size_t struct_size;  /* sizeof(meniscus_exchange) */
     uint32_t rank;       /* the number of this process, from 0 */
-    uint32_t ranks;      /* how many there are */
+    uint32_t ranks;      /* the number of processes */
     uint32_t leads_node; /* 1 in one rank of each machine, else 0 */
     void* context;       /* for the functions */
     /* Writes the bytes of all to `all`, one rank's after the other's. sizes: of each, the same in all ranks; together
      * at most 2^31 - 1. */
     int (*gather)(void* context, const void* mine, const size_t* sizes, void* all);
-    /* Writes to from[i] what rank i has in to[this rank]. */
+    /* Writes to from[i] the number that rank i has in to[this rank]. */
     int (*trade_sizes)(void* context, const uint64_t* to, uint64_t* from);
     /* Writes to from[i] the bytes that rank i has in to[this rank], but for this rank's own; any number of bytes. */
     int (*trade)(void* context, const void* const* to, const uint64_t* to_sizes, void* const* from,

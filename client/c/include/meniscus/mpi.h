@@ -42,7 +42,7 @@ static inline int meniscus_mpi_trade_sizes(void* context, const uint64_t* to, ui
     return MPI_Alltoall(to, 1, MPI_UINT64_T, from, 1, MPI_UINT64_T, ((meniscus_mpi_context*)context)->comm);
 }
 
-/* How many of `size` bytes come in the piece that begins at `at`: MPI counts in int. */
+/* The length of the piece of `size` bytes that begins at `at`: MPI counts in int. */
 static inline int meniscus_mpi_piece(uint64_t size, uint64_t at) {
     const uint64_t most = (uint64_t)1 << 30;
     return at >= size ? 0 : (int)(size - at < most ? size - at : most);
