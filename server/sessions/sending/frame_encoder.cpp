@@ -135,7 +135,6 @@ std::shared_ptr<const EncodedFrame> encode_frame(const ReconstructedFrame& frame
     encoded->statistics.encode_seconds = seconds_since(start);
     encoded->statistics.encoded_bytes = bytes;
     encoded->end = serialize(encoded->statistics);
-    emit(encoded->end);
     return encoded;
 }
 

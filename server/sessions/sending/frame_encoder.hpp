@@ -72,7 +72,8 @@ struct ReconstructedFrame {
     }
 };
 
-/// Called with every message as soon as it is there, one call at a time. The parts of a brick follow one another.
+/// Called with every message but the end as soon as it is there, one call at a time. The parts of a brick follow one
+/// another.
 using MessageSink = std::function<void(const SharedMessage&)>;
 
 /// Brings the mesh down, or its bricks where a GPU can pack them, and encodes these in parallel, but those whose

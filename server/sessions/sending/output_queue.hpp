@@ -46,7 +46,6 @@ public:
     void push(const SharedMessage& message);
     /// To one reader alone.
     void push_to(std::size_t reader, SharedMessage message);
-    std::size_t readers() const noexcept { return readers_.size(); }
     /// No messages follow. Later calls do nothing.
     void finish(std::exception_ptr error);
     /// Ends the queue as finish() does, and drops the messages that wait.

@@ -30,11 +30,6 @@ MeshFormat stream_format(const UploadOptions& options, const Settings& settings)
     return stream_format(options.normal_bits, options.codec, options.attributes, settings);
 }
 
-/// The mesh goes to part 0.
-void tell_other_parts(Upload& upload, const SharedMessage& statistics) {
-    for (std::size_t part = 1; part < upload.output.readers(); ++part) upload.output.push_to(part, statistics);
-}
-
 }  // namespace
 
 EncodingThread::EncodingThread(const SessionContext& context, Watchers& watchers, Ends ends)
@@ -114,8 +109,9 @@ void EncodingThread::perform(Encode& task) {
             const MeshFormat format = stream_format(upload.options, context_.settings);
             const auto encoded = encode_newest(
                 format, [&](const SharedMessage& message) { upload.output.push_to(0, message); }, upload.options.spray);
-            tell_other_parts(upload, encoded->end);
+            // Before the end, so that a simulator with an answer finds its figures.
             count_answer(encoded->statistics);
+            upload.output.push(encoded->end);
             watchers_.publish(format, encoded, Watchers::Keep::until_the_next_frame);
         } else {
             const FrameStatistics statistics = statistics_of(*newest_);
@@ -138,12 +134,12 @@ void EncodingThread::answer_again(Encode& task) {
     Upload& upload = *task.upload;
     try {
         if (upload.options.receive_meshes)
-            tell_other_parts(upload, encode_frame(
-                                         *task.frame, stream_format(upload.options, context_.settings), nullptr,
-                                         *context_.shared.workers, scratch_,
-                                         [&](const SharedMessage& message) { upload.output.push_to(0, message); },
-                                         upload.options.spray)
-                                         ->end);
+            upload.output.push(encode_frame(
+                                   *task.frame, stream_format(upload.options, context_.settings), nullptr,
+                                   *context_.shared.workers, scratch_,
+                                   [&](const SharedMessage& message) { upload.output.push_to(0, message); },
+                                   upload.options.spray)
+                                   ->end);
         else
             upload.output.push(serialize(statistics_of(*task.frame)));
     } catch (const DeviceError&) {

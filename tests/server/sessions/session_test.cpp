@@ -112,6 +112,32 @@ TEST_F(SessionPipeline, AnswersEveryFrameInOrder) {
     EXPECT_EQ(session.state().last_frame_index, 9U);
 }
 
+TEST_F(SessionPipeline, HasTheFiguresOfAFrameBeforeItsAnswerIsSent) {
+    for (const bool receive_meshes : {true, false}) {
+        Simulator* simulator = nullptr;
+        std::promise<std::optional<std::uint64_t>> figures;
+        std::promise<void> ended;
+        Simulator player(session, {.receive_meshes = receive_meshes, .normal_bits = 8}, [&] {
+            auto next = simulator->upload->output.take();
+            for (; const auto* message = std::get_if<SharedMessage>(&next); next = simulator->upload->output.take()) {
+                v1::StreamResponse response;
+                EXPECT_TRUE(response.ParseFromString(**message));
+                if (!response.has_frame_statistics()) continue;
+                const std::optional<FrameStatistics> last = session.state().last_frame;
+                figures.set_value(last ? std::optional(last->frame_index) : std::nullopt);
+            }
+            if (std::holds_alternative<OutputQueue::End>(next)) ended.set_value();
+        });
+        simulator = &player;
+        player.upload->output.take();  // there is nothing yet: the next message wakes
+        const std::uint64_t frame = receive_meshes ? 3 : 4;
+        player.send(frame, particles);
+        EXPECT_EQ(figures.get_future().get(), frame);
+        player.end();
+        ended.get_future().get();
+    }
+}
+
 TEST(SessionMemory, ThatEncodingTakesCountsAgainstTheLimit) {
     Session session({.id = id}, test::settings(), {.bytes_per_session = 3000},
                     {.reconstruct = reconstruct_on_the_cpu()}, {.workers = std::make_shared<WorkerPool>(2)});

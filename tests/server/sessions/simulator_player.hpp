@@ -8,11 +8,13 @@
 #include <chrono>
 #include <cstring>
 #include <exception>
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
 #include <semaphore>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "meniscus/reconstructor.hpp"
@@ -27,10 +29,17 @@ inline constexpr const char* id = "00000000-0000-4000-8000-000000000000";
 
 /// Plays a stream: one thread uploads, another reads.
 struct Simulator {
-    Simulator(Session& s, const UploadOptions& options)
+    /// woken: called in the session's thread when there are messages again.
+    Simulator(
+        Session& s, const UploadOptions& options, std::function<void()> woken = [] {})
         : session(s),
           upload(test::open_upload(
-              session, options, [awake = awake](std::size_t /*part*/) { awake->release(); }, [this] { ++drained; })) {}
+              session, options,
+              [awake = awake, woken = std::move(woken)](std::size_t /*part*/) {
+                  awake->release();
+                  woken();
+              },
+              [this] { ++drained; })) {}
 
     void send(std::uint64_t index, const Particles& particles) {
         std::promise<InputFrame*> lent;
