@@ -45,7 +45,7 @@ Agreement::Bytes Agreement::failure_of(const std::exception_ptr& error) const {
     }
 }
 
-std::vector<Agreement::Bytes> Agreement::opened(std::vector<Bytes> from) {
+void Agreement::open(std::vector<Bytes>& from) {
     for (std::size_t rank = 0; rank < from.size(); ++rank) {
         Bytes& bytes = from[rank];
         if (bytes.empty()) throw ProcessFailed("rank " + std::to_string(rank) + ": it runs another version");
@@ -53,7 +53,6 @@ std::vector<Agreement::Bytes> Agreement::opened(std::vector<Bytes> from) {
         bytes.pop_back();
         if (kind != Kind::no_failure) throw_from(rank, kind, bytes);
     }
-    return from;
 }
 
 }  // namespace meniscus

@@ -34,19 +34,21 @@ public:
         } catch (...) {
             mine = failure_of(std::current_exception());
         }
-        return opened(exchange_.gather(std::move(mine)));
+        std::vector<Bytes> all = exchange_.gather(std::move(mine));
+        open(all);
+        return all;
     }
-    /// As PartExchange::all_to_all() of what make() returns; throws likewise.
+    /// As PartExchange::all_to_all(), of what make() writes to `to`; throws likewise.
     template <std::invocable Make>
-    std::vector<Bytes> all_to_all(const Make& make) {
-        std::vector<Bytes> to;
+    void all_to_all(std::vector<Bytes>& to, std::vector<Bytes>& from, const Make& make) {
         try {
-            to = make();
+            make();
             for (Bytes& bytes : to) bytes.push_back(no_error);
         } catch (...) {
             to.assign(ranks(), failure_of(std::current_exception()));
         }
-        return opened(exchange_.all_to_all(std::move(to)));
+        exchange_.all_to_all(to, from);
+        open(from);
     }
     /// Waits until all have done this, and throws likewise.
     template <std::invocable Act>
@@ -62,8 +64,8 @@ private:
 
     /// Its text, and its kind behind it. A process by itself throws it.
     Bytes failure_of(const std::exception_ptr& error) const;
-    /// Without what was behind each.
-    static std::vector<Bytes> opened(std::vector<Bytes> from);
+    /// Takes away what was behind each, or throws it.
+    static void open(std::vector<Bytes>& from);
 
     PartExchange& exchange_;
 };

@@ -15,10 +15,11 @@ public:
         std::uint64_t particles = 0;
     };
 
-    /// A particle in the brick of this key.
-    void add(std::uint64_t key) {
+    /// Particles in the brick of this key, at least one.
+    void add(std::uint64_t key, std::uint64_t particles) {
         Count& count = slot_of(key);
-        if (count.particles++ != 0) return;
+        count.particles += particles;
+        if (count.particles != particles) return;
         count.key = key;
         if (++bricks_ > slots_.size() / 2) grow();
     }

@@ -22,6 +22,6 @@ struct UnequalSeams {
 };
 
 /// seams: of all parts. own: the parts' boxes.
-UnequalSeams compare_seams(std::vector<PartSeam> seams, std::span<const BrickBox> own);
+UnequalSeams compare_seams(std::span<const PartSeam> seams, std::span<const BrickBox> own);
 
 }  // namespace meniscus

@@ -28,17 +28,50 @@ struct Cut {
     double cost = std::numeric_limits<double>::infinity();
 };
 
+/// The bricks that lie at one place along an axis.
+struct Layer {
+    std::int32_t at = 0;
+    double particles = 0.0;
+};
+
+/// Those with particles, ascending.
+std::vector<Layer> layers_of(std::span<const BrickLoad> loads, std::size_t axis) {
+    std::vector<Layer> layers;
+    if (loads.empty()) return layers;
+    const auto by_axis = [axis](const BrickLoad& a, const BrickLoad& b) { return a.brick[axis] < b.brick[axis]; };
+    const auto [low, high] = std::minmax_element(loads.begin(), loads.end(), by_axis);
+    const std::int32_t first = low->brick[axis];
+    const auto place_of = [&](const BrickLoad& load) { return static_cast<std::size_t>(load.brick[axis] - first); };
+    // A table where they lie close together: sorting takes longer than all else of the deal.
+    if (const std::size_t places = place_of(*high) + 1; places <= 4 * loads.size()) {
+        layers.resize(places);
+        for (const BrickLoad& load : loads) {
+            Layer& layer = layers[place_of(load)];
+            layer = {load.brick[axis], layer.particles + static_cast<double>(load.particles)};
+        }
+        std::erase_if(layers, [](const Layer& layer) { return layer.particles == 0.0; });
+        return layers;
+    }
+    for (const BrickLoad& load : loads) layers.push_back({load.brick[axis], static_cast<double>(load.particles)});
+    std::sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.at < b.at; });
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < layers.size(); ++i)
+        if (layers[i].at == layers[last].at)
+            layers[last].particles += layers[i].particles;
+        else
+            layers[++last] = layers[i];
+    layers.resize(last + 1);
+    return layers;
+}
+
 /// The best of the cuts along an axis through bricks with particles. below, above: numbers of parts on either side.
-Cut best_cut(Loads loads, const BrickBox& box, std::size_t axis, double below, double above) {
-    std::sort(loads.begin(), loads.end(),
-              [axis](const BrickLoad& a, const BrickLoad& b) { return a.brick[axis] < b.brick[axis]; });
+Cut best_cut(std::span<const BrickLoad> loads, const BrickBox& box, std::size_t axis, double below, double above) {
+    const std::vector<Layer> layers = layers_of(loads, axis);
     const auto all = static_cast<double>(particles_of(loads));
     Cut best{axis};
     double under = 0.0, layer_before = 0.0;
-    for (std::size_t i = 0; i < loads.size();) {
-        const std::int32_t at = loads[i].brick[axis];
-        double layer = 0.0;
-        for (; i < loads.size() && loads[i].brick[axis] == at; ++i) layer += static_cast<double>(loads[i].particles);
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const auto [at, layer] = layers[i];
         // Below this layer; and above it, where the next one is empty.
         const auto consider = [&](std::int32_t place, double particles, double last, double next) {
             const double cost = std::max((particles + next / 2.0) / below, (all - particles + last / 2.0) / above);
@@ -46,7 +79,7 @@ Cut best_cut(Loads loads, const BrickBox& box, std::size_t axis, double below, d
         };
         consider(at, under, layer_before, layer);
         under += layer;
-        const bool is_next = i < loads.size() && loads[i].brick[axis] == at + 1;
+        const bool is_next = i + 1 < layers.size() && layers[i + 1].at == at + 1;
         if (!is_next) consider(at + 1, under, layer, 0.0);
         layer_before = is_next ? layer : 0.0;
     }
@@ -89,15 +122,19 @@ void deal(Loads loads, const BrickBox& box, std::size_t parts, std::vector<Brick
 
 }  // namespace
 
-std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& settings) {
+std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& settings, std::size_t each_stands_for) {
     const PositionsView positions = positions_view(frame, units_per_cell / world_cell_size(settings));
     constexpr auto edge = static_cast<std::uint64_t>(units_per_base_cell * brick_size);
     static_assert(std::has_single_bit(edge));
     const auto brick = [&](std::int64_t unit) { return static_cast<std::int32_t>(unit >> std::countr_zero(edge)); };
     BrickCounts counts;
-    for (std::size_t i = 0; i < frame.count(); ++i) {
-        const Units3 p = positions.snapped(i);
-        counts.add(brick_key({brick(p.x), brick(p.y), brick(p.z)}));
+    // The same place in each group would be one layer of particles that lie in rows: places follow the golden ratio.
+    std::uint32_t fraction = 0;  // of 2^32
+    for (std::size_t first = 0; first < frame.count(); first += each_stands_for) {
+        const std::size_t group = std::min(each_stands_for, frame.count() - first);
+        const Units3 p = positions.snapped(first + static_cast<std::size_t>(group * std::uint64_t{fraction} >> 32));
+        fraction += 0x9E3779B9U;
+        counts.add(brick_key({brick(p.x), brick(p.y), brick(p.z)}), group);
     }
     std::vector<BrickCounts::Count> all = counts.take();
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.key < b.key; });

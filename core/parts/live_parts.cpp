@@ -103,7 +103,6 @@ private:
             throw;
         }
         settled_ = std::exchange(begun_, std::nullopt);
-        report_ = parts_.report();
         return true;
     }
 
@@ -150,10 +149,11 @@ private:
 
     void publish(const Frame& frame) {
         try {
-            LivePart part{frame.index, frame.simulation_time, nullptr, {}, report_};
+            const PartsReport report = parts_.report();
+            LivePart part{frame.index, frame.simulation_time, nullptr, {}, report};
             if (has_part_) {
                 part.mesh = &made_.mesh;
-                part.statistics = share_of(report_, made_);
+                part.statistics = share_of(report, made_);
             }
             publisher_.publish(part);
         } catch (const std::exception& error) {
@@ -172,7 +172,6 @@ private:
     std::uint64_t dropped_ = 0;
     std::optional<Frame> begun_;    ///< is being made
     std::optional<Frame> settled_;  ///< is to be published
-    PartsReport report_;            ///< of the frame that has settled
     // The worker's, while it is at work:
     MadeMesh made_;
     bool has_part_ = false;  ///< whether it is of the frame

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "meniscus/error.hpp"
@@ -17,6 +18,9 @@ namespace meniscus {
 
 class MessageWriter {
 public:
+    /// memory: of a message before, to be used again.
+    explicit MessageWriter(std::vector<std::byte> memory = {}) : bytes_(std::move(memory)) {}
+
     template <class T>
     void add(const T& value) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -33,10 +37,8 @@ public:
     void add_some(std::span<const Number> values, std::size_t count, std::span<const std::uint32_t> chosen) {
         add(static_cast<std::uint64_t>(chosen.size() * count));
         const std::size_t size = count * sizeof(Number);
-        const std::size_t before = bytes_.size();
-        bytes_.resize(before + chosen.size() * size);
+        std::byte* to = room_for(chosen.size() * size);
         const auto copy = [&](auto known_size) {
-            std::byte* to = bytes_.data() + before;
             const auto* const from = reinterpret_cast<const std::byte*>(values.data());
             for (const std::uint32_t i : chosen) {
                 std::memcpy(to, from + i * known_size(), known_size());
@@ -53,16 +55,25 @@ public:
     }
     void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
     void add_text(std::string_view text) { add_all(std::span<const char>(text)); }
-    std::vector<std::byte> take() { return std::move(bytes_); }
+    std::vector<std::byte> take() {
+        bytes_.resize(size_);
+        return std::move(bytes_);
+    }
 
 private:
     void add_bytes(const void* from, std::size_t size) {
-        if (size == 0) return;
-        const auto* const begin = static_cast<const std::byte*>(from);
-        bytes_.insert(bytes_.end(), begin, begin + size);
+        if (size != 0) std::memcpy(room_for(size), from, size);
+    }
+    /// Until the next call.
+    std::byte* room_for(std::size_t size) {
+        size_ += size;
+        // Bytes of a message before are not set to zero first.
+        if (size_ > bytes_.size()) bytes_.resize(size_);
+        return bytes_.data() + (size_ - size);
     }
 
     std::vector<std::byte> bytes_;
+    std::size_t size_ = 0;  ///< of this message
 };
 
 /// Throws InvalidInput where a message ends too early: then the processes do not run the same program.

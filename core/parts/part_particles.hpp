@@ -1,4 +1,4 @@
-// The particles of a part: chosen from those of each process, sent, and put side by side.
+// The particles of a part, of the messages in which each process sends those near it.
 #pragma once
 
 #include <cstddef>
@@ -32,16 +32,12 @@ struct FrameForm {
     bool operator==(const FrameForm&) const = default;
 };
 
-/// The particles of a valid frame that lie within a closed box, world units, as a message. around: a box that holds all
-/// of the frame's.
-std::vector<std::byte> particles_within(const ParticleFrame& frame, const Box& box, const Box& around);
-
 /// Owns the arrays of a frame: of a part's, or of a copy. Keeps its memory from frame to frame.
 class PartParticles {
 public:
     /// Forgets the particles. form: of the frames that come.
     void begin(FrameForm form);
-    /// A message of particles_within(), of a frame of this form.
+    /// A message of ParticlesNear, of a frame of this form.
     void add(std::span<const std::byte> message);
     /// A copy of the frame.
     void assign(const ParticleFrame& frame);

@@ -19,26 +19,15 @@
 #include "parts/frame_facts.hpp"
 #include "parts/made_part.hpp"
 #include "parts/part_particles.hpp"
+#include "parts/particles_near.hpp"
 #include "parts/parts_told.hpp"
 #include "steps/fill_cracks/volume.hpp"
 
 namespace meniscus {
 namespace {
 
-/// World units, around all particles in these bricks.
-Box box_around(std::span<const BrickLoad> loads, const Settings& settings) {
-    const double edge = brick_cells * world_cell_size(settings);
-    constexpr double rounding = 1e-3;  // of a brick: far more than a particle is moved by snapping
-    Box box;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto by_axis = [axis](const BrickLoad& a, const BrickLoad& b) { return a.brick[axis] < b.brick[axis]; };
-        const auto [low, high] = std::minmax_element(loads.begin(), loads.end(), by_axis);
-        if (loads.empty()) continue;
-        box.min[axis] = (low->brick[axis] - rounding) * edge;
-        box.max[axis] = (high->brick[axis] + 1 + rounding) * edge;
-    }
-    return box;
-}
+/// Of a process, which are looked at for the deal: the parts' shares are even to some percent.
+constexpr std::size_t particles_for_deal = 8192;
 
 }  // namespace
 
@@ -73,6 +62,7 @@ public:
     /// What is given stays until the frame is over where it is borrowed.
     void begin(const FrameGiver& give, Particles particles) {
         start_ = std::chrono::steady_clock::now();
+        given_ = particles;
         const auto of_ranks = agreement_.gather([&] {
             const ParticleFrame given = give();
             // As a Reconstructor does, which passes over arrays that the frames before did not bring.
@@ -86,9 +76,8 @@ public:
                 mine_ = copy_.frame();
             }
             validate_places(mine_, settings_);
-            const FrameFacts facts = facts_of(mine_);
-            around_ = box_around(facts.loads, settings_);
-            return packed(facts);
+            near_.begin(mine_);
+            return packed(facts_of(mine_));
         });
         bring([&] {
             facts_ = facts_together(of_ranks);
@@ -114,7 +103,8 @@ public:
             particles_.begin(facts_.form);
             for (PartExchange::Bytes& bytes : from_) {
                 particles_.add(bytes);
-                bytes = {};
+                // The frames of a simulation follow each other in the same memory: new pages cost more than copies.
+                if (given_ == Particles::borrowed) bytes = {};
             }
             make_one(mine_to_make_[turn_], particles_.frame(), sink);
         } catch (...) {
@@ -127,7 +117,7 @@ public:
         if (turn_ == turns_) {
             compare();
             if (wanted_.empty()) {
-                finish_report();
+                finish();
                 return false;
             }
             deal_turns();
@@ -136,14 +126,33 @@ public:
         return true;
     }
 
-    const PartsReport& report() const { return report_; }
+    PartsReport report() const {
+        PartsReport report = finished_.report;
+        PartsTold all;
+        for (const PartExchange::Bytes& message : finished_.told) all.add(message);
+        const MadePart sum = all.sum();
+        report.particles_received = sum.particles;
+        report.own_vertices = all.own_vertices();
+        report.ranges = all.whole_ranges();
+        Statistics& whole = report.whole;
+        whole.vertices = std::accumulate(report.own_vertices.begin(), report.own_vertices.end(), std::uint64_t{0});
+        whole.triangles_by_level = sum.triangles_by_level;
+        for (const std::uint64_t triangles : sum.triangles_by_level) whole.triangles += triangles;
+        whole.base_cells_by_level = sum.base_cells_by_level;
+        whole.volume = world_volume(sum.sixfold_volume, world_cell_size(settings_), offset_bits(settings_));
+        whole.spray_particles = sum.spray_particles;
+        whole.vertices_without_particles = sum.vertices_without_particles;
+        whole.field_evaluations = sum.field_evaluations;
+        whole.stage_seconds = sum.stage_seconds;
+        return report;
+    }
 
 private:
     FrameFacts facts_of(const ParticleFrame& mine) const {
         FrameFacts facts;
         facts.form = FrameForm(mine);
         facts.by_level = count_levels(mine);
-        facts.loads = brick_loads(mine, settings_);
+        facts.loads = brick_loads(mine, settings_, std::max<std::size_t>(mine.count() / particles_for_deal, 1));
         facts.ranges = array_ranges(mine, settings_);
         return facts;
     }
@@ -166,15 +175,18 @@ private:
     /// prepare: what this process does before, and may throw.
     template <class Prepare>
     void bring(const Prepare& prepare) {
-        from_ = agreement_.all_to_all([&] {
+        agreement_.all_to_all(to_, from_, [&] {
             prepare();
-            std::vector<PartExchange::Bytes> to(agreement_.ranks());
-            for (std::size_t rank = 0; rank < to.size(); ++rank)
+            to_.resize(agreement_.ranks());
+            for (std::size_t rank = 0; rank < to_.size(); ++rank) {
                 if (turn_ < of_rank_[rank].size())
-                    to[rank] = particles_within(
-                        mine_, reach_of(part(of_rank_[rank][turn_]), settings_, facts_.coarsest_level()), around_);
-            return to;
+                    to_[rank] = near_.within(
+                        reach_of(part(of_rank_[rank][turn_]), settings_, facts_.coarsest_level()), std::move(to_[rank]));
+                else
+                    to_[rank].clear();
+            }
         });
+        if (given_ == Particles::borrowed) to_.clear();
     }
 
     FramePart part(std::size_t number) const { return {own_[number], overlaps_[number], facts_.ranges}; }
@@ -197,15 +209,15 @@ private:
 
     /// Of all parts: those whose seams differ are wanted again.
     void compare() {
-        const auto messages = agreement_.gather([&] {
+        messages_ = agreement_.gather([&] {
             rethrow_error();
             return told_.packed();
         });
         agreement_.agree([&] {
-            all_ = {};
-            for (const PartExchange::Bytes& message : messages) all_.add(message);
+            std::vector<PartSeam> seams;
+            for (const PartExchange::Bytes& message : messages_) PartsTold::add_seams(message, seams);
             report_.parts_made += wanted_.size();
-            UnequalSeams unequal = compare_seams(all_.seams, own_);
+            UnequalSeams unequal = compare_seams(seams, own_);
             report_.unequal_seams += unequal.count;
             wanted_ = std::move(unequal.parts);
             for (const std::size_t part : wanted_) {
@@ -219,31 +231,21 @@ private:
         });
     }
 
-    void finish_report() {
-        const MadePart sum = all_.sum();
+    /// What is quickly done: the rest is for report().
+    void finish() {
         report_.greatest_overlap = *std::max_element(overlaps_.begin(), overlaps_.end());
-        report_.particles_received = sum.particles;
-        report_.own_vertices = all_.own_vertices();
-        report_.ranges = all_.whole_ranges();
-        all_ = {};
         Statistics& whole = report_.whole;
         whole.particles = facts_.particles();
         whole.particle_volume = volume_of(facts_.by_level, settings_);
-        whole.vertices = std::accumulate(report_.own_vertices.begin(), report_.own_vertices.end(), std::uint64_t{0});
-        whole.triangles_by_level = sum.triangles_by_level;
-        for (const std::uint64_t triangles : sum.triangles_by_level) whole.triangles += triangles;
-        whole.base_cells_by_level = sum.base_cells_by_level;
-        whole.volume = world_volume(sum.sixfold_volume, world_cell_size(settings_), offset_bits(settings_));
-        whole.spray_particles = sum.spray_particles;
-        whole.vertices_without_particles = sum.vertices_without_particles;
-        whole.field_evaluations = sum.field_evaluations;
-        whole.stage_seconds = sum.stage_seconds;
         whole.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        finished_ = {std::move(report_), std::move(messages_)};
         if (agreement_.ranks() != 1) return;
         // The whole frame is here.
         const PlacedFrame placed(mine_);
+        Statistics summed = report().whole;
         find_warnings(
-            placed, facts_.by_level, settings_, wrong_radius_, [&] { return sum.greatest_sample; }, whole);
+            placed, facts_.by_level, settings_, wrong_radius_, [&] { return told_.sum().greatest_sample; }, summed);
+        finished_.report.whole.warnings = std::move(summed.warnings);
     }
 
     Settings settings_;
@@ -258,22 +260,29 @@ private:
     PartParticles copy_;
     std::vector<ParticleArray> arrays_;
     ParticleFrame mine_;  ///< borrows from the caller, or from the copy
-    Box around_;          ///< all of its particles
+    Particles given_ = Particles::borrowed;
+    ParticlesNear near_;
     FrameFacts facts_;
     std::vector<BrickBox> own_;
     std::vector<std::uint32_t> overlaps_;
     std::optional<Warning> wrong_radius_;
-    PartsReport report_;
-    PartsTold told_;  ///< by this process
-    PartsTold all_;   ///< by all
+    PartsReport report_;  ///< without what is summed up of the parts
+    PartsTold told_;      ///< by this process
+    std::vector<PartExchange::Bytes> messages_;  ///< PartsTold, of each process
     // Of the round:
     std::vector<std::size_t> wanted_;  ///< the parts to make, in all processes
     std::vector<std::vector<std::size_t>> of_rank_;
     std::vector<std::size_t> mine_to_make_;
     std::size_t turns_ = 0, turn_ = 0;
-    std::vector<PartExchange::Bytes> from_;  ///< the particles for this turn's part
+    std::vector<PartExchange::Bytes> to_, from_;  ///< the particles for this turn's parts
     PartParticles particles_;
     std::exception_ptr error_;  ///< of make()
+
+    /// The frame before.
+    struct {
+        PartsReport report;
+        std::vector<PartExchange::Bytes> told;
+    } finished_;
 };
 
 PartsReconstructor::PartsReconstructor(const Settings& settings, const BackendOptions& backend,
@@ -300,7 +309,7 @@ bool PartsReconstructor::go_on() {
     return impl_->go_on();
 }
 
-const PartsReport& PartsReconstructor::report() const {
+PartsReport PartsReconstructor::report() const {
     return impl_->report();
 }
 

@@ -23,6 +23,8 @@ void PartsTold::take(std::uint64_t part, const MadePart& figures, const std::vec
 
 PartExchange::Bytes PartsTold::packed() const {
     MessageWriter message;
+    const auto bytes = [](const auto& values) { return sizeof(std::uint64_t) + values.size() * sizeof values[0]; };
+    message.reserve(bytes(seams) + bytes(made) + bytes(border) + bytes(ranges) + 1);  // one that Agreement adds
     message.add_all(std::span<const PartSeam>(seams));
     message.add_all(std::span<const MadePart>(made));
     message.add_all(std::span<const BorderVertex>(border));
@@ -36,6 +38,10 @@ void PartsTold::add(const PartExchange::Bytes& message) {
     reader.append_to(made);
     reader.append_to(border);
     reader.append_to(ranges);
+}
+
+void PartsTold::add_seams(const PartExchange::Bytes& message, std::vector<PartSeam>& seams) {
+    MessageReader(message).append_to(seams);
 }
 
 MadePart PartsTold::sum() const {

@@ -27,9 +27,11 @@ struct PartsTold {
     /// A part that has been made once more takes the place of what it was.
     void take(std::uint64_t part, const MadePart& figures, const std::vector<Seam>& its_seams, const Mesh& mesh,
               const BrickBox& own);
-    /// Takes what another process tells.
-    void add(const PartExchange::Bytes& message);
     PartExchange::Bytes packed() const;
+    /// Takes what a process tells, packed.
+    void add(const PartExchange::Bytes& message);
+    /// Takes the seams of it alone.
+    static void add_seams(const PartExchange::Bytes& message, std::vector<PartSeam>& seams);
 
     MadePart sum() const;
     /// Of each part, the vertices that no part before it has.

@@ -17,6 +17,7 @@ void add_upload(CLI::App& app);
 void add_service(CLI::App& app);
 void add_delivery(CLI::App& app);
 void add_publishing(CLI::App& app);
+void add_pushing(CLI::App& app);
 void add_surfaces(CLI::App& app);
 void add_quality(CLI::App& app);
 

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
     meniscus::benchmarks::add_service(app);
     meniscus::benchmarks::add_delivery(app);
     meniscus::benchmarks::add_publishing(app);
+    meniscus::benchmarks::add_pushing(app);
     meniscus::benchmarks::add_surfaces(app);
     meniscus::benchmarks::add_quality(app);
     meniscus::benchmarks::add_gpu_commands(app, meniscus::benchmarks::run_model_elsewhere);

@@ -18,7 +18,7 @@ public:
     std::size_t ranks() const override { return to_.ranks; }
     bool leads_node() const { return to_.leads_node != 0; }
     std::vector<Bytes> gather(Bytes mine) override;
-    std::vector<Bytes> all_to_all(std::vector<Bytes> to) override;
+    void all_to_all(std::vector<Bytes>& to, std::vector<Bytes>& from) override;
     void release() const;
 
 private:

@@ -25,8 +25,10 @@ struct BrickLoad {
     std::uint64_t particles = 0;
     bool operator==(const BrickLoad&) const = default;
 };
-/// The bricks that hold particles of a valid frame, by (z, y, x).
-std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& settings);
+/// The bricks that hold particles of a valid frame, by (z, y, x). each_stands_for: of each of such groups of particles
+/// one is looked at, in a place that the group's number gives.
+std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& settings,
+                                   std::size_t each_stands_for = 1);
 
 /// Deals all bricks to parts: boxes that fill space, made by cutting boxes in two between bricks. Each cut is where the
 /// side with more to do for each of its parts has least: its particles, and half of those in the layer of bricks beyond
@@ -45,8 +47,10 @@ public:
     virtual std::size_t ranks() const = 0;  ///< number of processes
     /// The bytes of all, by rank: small things.
     virtual std::vector<Bytes> gather(Bytes mine) = 0;
-    /// to: what each rank shall get, by rank. Returns what each rank has sent to this one: particles.
-    virtual std::vector<Bytes> all_to_all(std::vector<Bytes> to) = 0;
+    /// to: what each rank shall get, by rank: particles. from: what each rank has sent to this one takes the place of
+    /// what is there, for which it has as many elements as there are ranks. Memory of both is kept for the next call;
+    /// they may have swapped it.
+    virtual void all_to_all(std::vector<Bytes>& to, std::vector<Bytes>& from) = 0;
 };
 /// The exchange of a process by itself.
 class AloneExchange final : public PartExchange {
@@ -54,7 +58,7 @@ public:
     std::size_t rank() const override { return 0; }
     std::size_t ranks() const override { return 1; }
     std::vector<Bytes> gather(Bytes mine) override;
-    std::vector<Bytes> all_to_all(std::vector<Bytes> to) override { return to; }
+    void all_to_all(std::vector<Bytes>& to, std::vector<Bytes>& from) override { to.swap(from); }
 };
 
 struct PartsOptions {
@@ -117,8 +121,8 @@ public:
     void make(const PartSink& sink) noexcept;
     /// Brings the particles for more parts, and returns true; once all are made and their seams are equal, false.
     bool go_on();
-    /// Of the frame that has ended so.
-    const PartsReport& report() const;
+    /// Of the frame that has ended last: it is summed up here, on any thread, as by make().
+    PartsReport report() const;
 
 private:
     class Impl;

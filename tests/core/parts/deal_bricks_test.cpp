@@ -86,5 +86,43 @@ TEST(DealBricks, CountsTheParticlesOfBricks) {
     EXPECT_EQ(count, particles.count());
 }
 
+TEST(DealBricks, WeighsBricksBySomeOfTheirParticles) {
+    // In rows of as many as there are in a group, from brick to brick.
+    test::Particles particles;
+    for (int z = 0; z < 40; ++z)
+        for (int y = 0; y < 40; ++y)
+            for (int x = 0; x < 40; ++x)
+                for (const int i : {x, y, z}) particles.positions.push_back(static_cast<float>(i) * 0.1F);
+    const Settings settings = test::default_settings();
+    const std::vector<BrickLoad> all = brick_loads(particles.frame(), settings);
+    const std::vector<BrickLoad> some = brick_loads(particles.frame(), settings, 40);
+    std::uint64_t count = 0;
+    for (const BrickLoad& load : some) count += load.particles;
+    EXPECT_EQ(count, particles.count());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        // Of each layer of bricks.
+        for (std::int32_t at = 0; at < 5; ++at) {
+            const auto particles_at = [&](const std::vector<BrickLoad>& loads) {
+                double sum = 0.0;
+                for (const BrickLoad& load : loads) sum += load.brick[axis] == at ? double(load.particles) : 0.0;
+                return sum;
+            };
+            EXPECT_NEAR(particles_at(some), particles_at(all), 0.1 * particles_at(all)) << axis << " " << at;
+        }
+    }
+}
+
+TEST(DealBricks, FindsTheSameCutsFarApart) {
+    // Few bricks a long way from each other, and the same places of many.
+    std::vector<BrickLoad> far, near;
+    for (std::int32_t i = 0; i < 8; ++i) {
+        far.push_back({{1000 * i, 0, 0}, 10});
+        near.push_back({{i, 0, 0}, 10});
+    }
+    for (const std::size_t parts : {2U, 4U, 8U})
+        for (const std::vector<BrickLoad>* const loads : {&far, &near})
+            for (const BrickBox& box : deal_bricks(*loads, parts)) EXPECT_EQ(load_of(box, *loads), 80 / parts);
+}
+
 }  // namespace
 }  // namespace meniscus

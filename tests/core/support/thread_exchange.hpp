@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include "barrier.hpp"
@@ -14,21 +13,20 @@ namespace meniscus::test {
 /// The place where threads that stand for processes exchange.
 class Meeting {
 public:
-    explicit Meeting(std::size_t ranks) : barrier_(ranks), given_(ranks) {}
-    std::size_t ranks() const { return given_.size(); }
-    /// Gives what one has for each of the others; returns what each has for this one.
-    std::vector<PartExchange::Bytes> exchange(std::size_t rank, std::vector<PartExchange::Bytes> to) {
-        given_[rank] = std::move(to);
+    explicit Meeting(std::size_t ranks) : barrier_(ranks), shown_(ranks) {}
+    std::size_t ranks() const { return shown_.size(); }
+    /// Shows all what each one has; read(rank, what) gets that of each, while it stays.
+    template <class Read>
+    void meet(std::size_t rank, const void* mine, const Read& read) {
+        shown_[rank] = mine;
         barrier_.arrive_and_wait();
-        std::vector<PartExchange::Bytes> from;
-        for (const auto& its : given_) from.push_back(its[rank]);
+        for (std::size_t other = 0; other < ranks(); ++other) read(other, shown_[other]);
         barrier_.arrive_and_wait();
-        return from;
     }
 
 private:
     Barrier barrier_;
-    std::vector<std::vector<PartExchange::Bytes>> given_;
+    std::vector<const void*> shown_;
 };
 
 class ThreadExchange final : public PartExchange {
@@ -37,9 +35,17 @@ public:
     std::size_t rank() const override { return rank_; }
     std::size_t ranks() const override { return meeting_.ranks(); }
     std::vector<Bytes> gather(Bytes mine) override {
-        return meeting_.exchange(rank_, std::vector<Bytes>(ranks(), mine));
+        std::vector<Bytes> all(ranks());
+        meeting_.meet(rank_, &mine,
+                      [&](std::size_t rank, const void* its) { all[rank] = *static_cast<const Bytes*>(its); });
+        return all;
     }
-    std::vector<Bytes> all_to_all(std::vector<Bytes> to) override { return meeting_.exchange(rank_, std::move(to)); }
+    void all_to_all(std::vector<Bytes>& to, std::vector<Bytes>& from) override {
+        from.resize(ranks());
+        meeting_.meet(rank_, &to, [&](std::size_t rank, const void* its) {
+            from[rank] = (*static_cast<const std::vector<Bytes>*>(its))[rank_];
+        });
+    }
 
 private:
     Meeting& meeting_;

@@ -30,34 +30,28 @@ RankExchange::RankExchange(const py::object& exchange)
 
 std::vector<PartExchange::Bytes> RankExchange::gather(Bytes mine) {
     std::vector<Bytes> all;
-    with_lock([&] { all = bytes_of_ranks(exchange_.attr("gather")(bytes_out(mine))); });
+    with_lock([&] { read_bytes_of_ranks(exchange_.attr("gather")(bytes_out(mine)), all); });
     return all;
 }
 
-std::vector<PartExchange::Bytes> RankExchange::all_to_all(std::vector<Bytes> to) {
-    std::vector<Bytes> from;
+void RankExchange::all_to_all(std::vector<Bytes>& to, std::vector<Bytes>& from) {
     with_lock([&] {
         py::list given;
-        for (Bytes& bytes : to) {
-            given.append(bytes_out(bytes));
-            bytes = {};  // there may be much
-        }
-        from = bytes_of_ranks(exchange_.attr("trade")(given));
+        for (const Bytes& bytes : to) given.append(bytes_out(bytes));
+        read_bytes_of_ranks(exchange_.attr("trade")(given), from);
     });
-    return from;
 }
 
-std::vector<PartExchange::Bytes> RankExchange::bytes_of_ranks(const py::object& list) const {
-    std::vector<Bytes> all;
-    for (const py::handle each : list) {
+void RankExchange::read_bytes_of_ranks(const py::object& list, std::vector<Bytes>& all) const {
+    if (py::len(list) != ranks_)
+        throw InvalidInput("the exchange has given the bytes of " + std::to_string(py::len(list)) +
+                           " ranks, must be of " + std::to_string(ranks_));
+    all.resize(ranks_);
+    for (std::size_t rank = 0; const py::handle each : list) {
         const py::buffer_info bytes = each.cast<py::buffer>().request();
         const auto* const begin = static_cast<const std::byte*>(bytes.ptr);
-        all.emplace_back(begin, begin + bytes.size * bytes.itemsize);
+        all[rank++].assign(begin, begin + bytes.size * bytes.itemsize);
     }
-    if (all.size() != ranks_)
-        throw InvalidInput("the exchange has given the bytes of " + std::to_string(all.size()) + " ranks, must be of " +
-                           std::to_string(ranks_));
-    return all;
 }
 
 }  // namespace meniscus::python

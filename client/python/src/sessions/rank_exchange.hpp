@@ -20,11 +20,11 @@ public:
     std::size_t rank() const override { return rank_; }
     std::size_t ranks() const override { return ranks_; }
     std::vector<Bytes> gather(Bytes mine) override;
-    std::vector<Bytes> all_to_all(std::vector<Bytes> to) override;
+    void all_to_all(std::vector<Bytes>& to, std::vector<Bytes>& from) override;
 
 private:
     /// With the lock.
-    std::vector<Bytes> bytes_of_ranks(const pybind11::object& list) const;
+    void read_bytes_of_ranks(const pybind11::object& list, std::vector<Bytes>& all) const;
 
     pybind11::handle exchange_;
     std::size_t rank_;
