@@ -70,8 +70,7 @@ bool are_apart(const NumberBounds& a, const NumberBounds& b) {
 bool is_within(const NumberBounds& inner, const NumberBounds& outer) {
     bool is_within = true;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        is_within =
-            is_within && inner.least[axis] >= outer.least[axis] && inner.greatest[axis] <= outer.greatest[axis];
+        is_within = is_within && inner.least[axis] >= outer.least[axis] && inner.greatest[axis] <= outer.greatest[axis];
     return is_within;
 }
 
@@ -117,11 +116,8 @@ void ParticlesNear::begin(const ParticleFrame& frame) {
 }
 
 NumberBounds ParticlesNear::numbers_within(const Box& box) const {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
     NumberBounds numbers;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        constexpr double most = std::numeric_limits<float>::max();
-        const double low = std::clamp(box.min[axis], -most, most), high = std::clamp(box.max[axis], -most, most);
         float& least = numbers.least[axis];
         float& greatest = numbers.greatest[axis];
         if (frame_.is_quantized()) {
@@ -130,11 +126,14 @@ NumberBounds ParticlesNear::numbers_within(const Box& box) const {
             const auto coordinate = [&](int number) {
                 return decoded.min[axis] + number * (decoded.max[axis] - decoded.min[axis]) / 65535.0;
             };
-            const auto from = std::ranges::partition_point(all, [&](int n) { return coordinate(n) < low; });
-            const auto to = std::ranges::partition_point(all, [&](int n) { return coordinate(n) <= high; });
+            const auto from = std::ranges::partition_point(all, [&](int n) { return coordinate(n) < box.min[axis]; });
+            const auto to = std::ranges::partition_point(all, [&](int n) { return coordinate(n) <= box.max[axis]; });
             least = static_cast<float>(from - all.begin());
             greatest = static_cast<float>(to - all.begin()) - 1.0F;
         } else {
+            constexpr float infinity = std::numeric_limits<float>::infinity();
+            constexpr double most = std::numeric_limits<float>::max();
+            const double low = std::clamp(box.min[axis], -most, most), high = std::clamp(box.max[axis], -most, most);
             least = static_cast<float>(low);
             if (double{least} < low) least = std::nextafter(least, infinity);
             greatest = static_cast<float>(high);

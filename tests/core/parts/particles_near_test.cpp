@@ -20,7 +20,8 @@ struct Numbered {
         std::uniform_real_distribution<float> place(0.0F, 1.0F);
         for (std::size_t i = 0; i < 3 * count; ++i) positions.push_back(place(random));
         if (in_rows)
-            for (std::size_t i = 0; i < count; ++i) positions[3 * i] = static_cast<float>(i) / static_cast<float>(count);
+            for (std::size_t i = 0; i < count; ++i)
+                positions[3 * i] = static_cast<float>(i) / static_cast<float>(count);
         for (const float x : positions) quantized.push_back(static_cast<std::uint16_t>(x * 65535.0F));
         for (std::size_t i = 0; i < count; ++i) levels.push_back(static_cast<std::uint8_t>(i % 3));
         numbers.resize(count);
@@ -109,6 +110,19 @@ TEST(ParticlesNear, AreThoseWithinTheBox) {
                 }
             }
     EXPECT_GT(chosen, 10'000U);
+}
+
+TEST(ParticlesNear, AreFoundBeyondFloat32) {
+    const std::vector<std::uint16_t> quantized{0, 0, 0, 40000, 40000, 40000, 65535, 65535, 65535};
+    ParticleFrame frame;
+    frame.quantized = quantized;
+    frame.quantization_box = {{-1e45, -1e45, -1e45}, {1e45, 1e45, 1e45}};
+    ParticlesNear near;
+    near.begin(frame);
+    PartParticles part;
+    part.begin(FrameForm(frame));
+    part.add(near.within({{1e44, 1e44, 1e44}, {9e44, 9e44, 9e44}}, {}));
+    EXPECT_TRUE(std::ranges::equal(part.frame().quantized, std::span(quantized).subspan(3, 3)));
 }
 
 TEST(ParticlesNear, AreNoneOfNone) {
