@@ -26,7 +26,8 @@
 namespace meniscus {
 namespace {
 
-/// Of a process, which are looked at for the deal: the parts' shares are even to some percent.
+/// Of a process beside a simulation, which are looked at for the deal: it has one part at most, and the parts' shares
+/// are even to some percent.
 constexpr std::size_t particles_for_deal = 8192;
 
 }  // namespace
@@ -104,7 +105,8 @@ public:
             for (PartExchange::Bytes& bytes : from_) {
                 particles_.add(bytes);
                 // The frames of a simulation follow each other in the same memory: new pages cost more than copies.
-                if (given_ == Particles::borrowed) bytes = {};
+                // (`bytes = {}` would keep the memory.)
+                if (given_ == Particles::borrowed) PartExchange::Bytes().swap(bytes);
             }
             make_one(mine_to_make_[turn_], particles_.frame(), sink);
         } catch (...) {
@@ -152,7 +154,9 @@ private:
         FrameFacts facts;
         facts.form = FrameForm(mine);
         facts.by_level = count_levels(mine);
-        facts.loads = brick_loads(mine, settings_, std::max<std::size_t>(mine.count() / particles_for_deal, 1));
+        // One frame may have parts by the hundred, and the largest decides how much memory it takes: all count there.
+        const std::size_t group = given_ == Particles::borrowed ? 1 : mine.count() / particles_for_deal;
+        facts.loads = brick_loads(mine, settings_, std::max<std::size_t>(group, 1));
         facts.ranges = array_ranges(mine, settings_);
         return facts;
     }
@@ -180,8 +184,8 @@ private:
             to_.resize(agreement_.ranks());
             for (std::size_t rank = 0; rank < to_.size(); ++rank) {
                 if (turn_ < of_rank_[rank].size())
-                    to_[rank] = near_.within(
-                        reach_of(part(of_rank_[rank][turn_]), settings_, facts_.coarsest_level()), std::move(to_[rank]));
+                    to_[rank] = near_.within(reach_of(part(of_rank_[rank][turn_]), settings_, facts_.coarsest_level()),
+                                             std::move(to_[rank]));
                 else
                     to_[rank].clear();
             }
@@ -266,8 +270,8 @@ private:
     std::vector<BrickBox> own_;
     std::vector<std::uint32_t> overlaps_;
     std::optional<Warning> wrong_radius_;
-    PartsReport report_;  ///< without what is summed up of the parts
-    PartsTold told_;      ///< by this process
+    PartsReport report_;                         ///< without what is summed up of the parts
+    PartsTold told_;                             ///< by this process
     std::vector<PartExchange::Bytes> messages_;  ///< PartsTold, of each process
     // Of the round:
     std::vector<std::size_t> wanted_;  ///< the parts to make, in all processes
@@ -278,7 +282,7 @@ private:
     PartParticles particles_;
     std::exception_ptr error_;  ///< of make()
 
-    /// The frame before.
+    /// Of the frame that has ended last:
     struct {
         PartsReport report;
         std::vector<PartExchange::Bytes> told;

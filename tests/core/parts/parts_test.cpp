@@ -188,6 +188,34 @@ TEST(Parts, RefuseWhatIsOutOfRange) {
     EXPECT_THROW(reconstructor.reconstruct_part(particles.frame(), part, mesh), InvalidInput);
 }
 
+TEST(Parts, HoldNoMessageOncePutTogetherInOneFrame) {
+    class Watched final : public PartExchange {
+    public:
+        std::size_t rank() const override { return 0; }
+        std::size_t ranks() const override { return 1; }
+        std::vector<Bytes> gather(Bytes mine) override { return alone_.gather(std::move(mine)); }
+        void all_to_all(std::vector<Bytes>& to, std::vector<Bytes>& from) override {
+            for (const Bytes& bytes : from) EXPECT_EQ(bytes.capacity(), 0U);
+            alone_.all_to_all(to, from);
+        }
+
+    private:
+        AloneExchange alone_;
+    } watched;
+    PartsReconstructor reconstructor(test::default_settings(), {Backend::cpu, 1, 0}, {.parts = 4}, watched);
+    reconstructor.reconstruct(test::splash(3, 12).frame(), [](const FinishedPart&) {});
+}
+
+TEST(Parts, AreDealtByAllParticlesInOneFrame) {
+    const Settings settings = test::default_settings();
+    const test::Particles particles = test::noise_cube(52, 40'000, 1.0, settings.particle_radius);
+    const std::vector<BrickBox> own = deal_bricks(brick_loads(particles.frame(), settings), 24);
+    AloneExchange alone;
+    PartsReconstructor reconstructor(settings, {Backend::cpu, 1, 0}, {.parts = own.size()}, alone);
+    reconstructor.reconstruct(particles.frame(),
+                              [&](const FinishedPart& part) { EXPECT_EQ(part.part.own, own[part.number]); });
+}
+
 TEST(Parts, RefuseRangesThatDoNotHoldTheParticles) {
     test::ParticlesWithArrays particles;
     particles.particles = test::splash(50, 4);
