@@ -26,8 +26,7 @@ UnequalSeams compare_seams(std::span<const PartSeam> seams, std::span<const Bric
     const auto key = [](const BrickCoordinate& b) { return brick_key({b[0], b[1], b[2]}); };
     std::vector<Place> places;
     places.reserve(seams.size());
-    for (const PartSeam& its : seams)
-        places.push_back({key(its.seam.first), key(its.seam.second), its.part, &its});
+    for (const PartSeam& its : seams) places.push_back({key(its.seam.first), key(its.seam.second), its.part, &its});
     std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
         return a.first != b.first ? a.first < b.first : a.second != b.second ? a.second < b.second : a.part < b.part;
     });

@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "benchmarks.hpp"
-#include "support/thread_exchange.hpp"
 #include "meniscus/live_parts.hpp"
 #include "moving_frames.hpp"
 #include "processor_time.hpp"
 #include "report.hpp"
+#include "support/thread_exchange.hpp"
 #include "warm_runs.hpp"
 #include "water.hpp"
 
@@ -121,7 +121,8 @@ Row measure(const Frames& of_ranks, std::size_t makers, unsigned frames) {
 
 void run_pushing(const PushingOptions& options) {
     std::cout << "particles of   makers   over a copy: least   greatest rank   ms of the greatest\n" << std::fixed;
-    const std::vector<float> water = make_water(WaterKind::splashing, options.ranks * options.particles, radius_of_pushed);
+    const std::vector<float> water =
+        make_water(WaterKind::splashing, options.ranks * options.particles, radius_of_pushed);
     Rows rows = Rows::array();
     for (const auto& [deal, name] : deals) {
         const Frames of_ranks = dealt(water, options.ranks, deal);
@@ -139,8 +140,10 @@ void run_pushing(const PushingOptions& options) {
         }
     }
     nlohmann::ordered_json summary;
-    summary["runs"] = "processor time of a rank's own thread in push(), over that of a copy of its particles; medians "
-                      "of " + std::to_string(options.frames) + " frames";
+    summary["runs"] =
+        "processor time of a rank's own thread in push(), over that of a copy of its particles; medians "
+        "of " +
+        std::to_string(options.frames) + " frames";
     summary["input"] = "splashing water that moves, float32 positions alone";
     summary["ranks"] = std::to_string(options.ranks) + " threads, whose exchange sleeps while it waits";
     write_report(options.out, "pushing", summary, rows);
@@ -151,7 +154,8 @@ void run_pushing(const PushingOptions& options) {
 void add_pushing(CLI::App& app) {
     auto options = std::make_shared<PushingOptions>();
     CLI::App& command = *app.add_subcommand(
-        "pushing", "Processor time that a push of ranks takes on a simulation's thread, against a copy of its particles");
+        "pushing",
+        "Processor time that a push of ranks takes on a simulation's thread, against a copy of its particles");
     command.add_option("--particles", options->particles, "Of a rank, about")->capture_default_str();
     command.add_option("--ranks", options->ranks, "Processes, as threads of this one")
         ->check(CLI::Range(1U, 1000U))

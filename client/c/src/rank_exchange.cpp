@@ -88,8 +88,7 @@ void RankExchange::all_to_all(std::vector<Bytes>& to, std::vector<Bytes>& from) 
 void RankExchange::receive(const std::vector<std::uint64_t>& sizes, std::vector<Bytes>& from) {
     Bytes is_there(1, std::byte{1});
     try {
-        for (std::size_t rank = 0; rank < from.size(); ++rank)
-            from[rank].resize(sizes[rank]);
+        for (std::size_t rank = 0; rank < from.size(); ++rank) from[rank].resize(sizes[rank]);
     } catch (const std::exception&) {  // bad_alloc, or more than a vector can have
         is_there[0] = std::byte{0};
     }

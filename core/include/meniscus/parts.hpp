@@ -26,7 +26,7 @@ struct BrickLoad {
     bool operator==(const BrickLoad&) const = default;
 };
 /// The bricks that hold particles of a valid frame, by (z, y, x). each_stands_for: of each of such groups of particles
-/// one is looked at, in a place that the group's number gives.
+/// one is looked at, in a place that the group's number gives; at least 1.
 std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& settings,
                                    std::size_t each_stands_for = 1);
 
@@ -47,9 +47,9 @@ public:
     virtual std::size_t ranks() const = 0;  ///< number of processes
     /// The bytes of all, by rank: small things.
     virtual std::vector<Bytes> gather(Bytes mine) = 0;
-    /// to: what each rank shall get, by rank: particles. from: what each rank has sent to this one takes the place of
-    /// what is there, for which it has as many elements as there are ranks. Memory of both is kept for the next call;
-    /// they may have swapped it.
+    /// to: what each rank shall get, by rank: particles. from: gets as many elements as there are ranks, and what each
+    /// has sent to this one in place of what was there. The memory of both serves the next call; they may have swapped
+    /// it.
     virtual void all_to_all(std::vector<Bytes>& to, std::vector<Bytes>& from) = 0;
 };
 /// The exchange of a process by itself.
@@ -121,7 +121,7 @@ public:
     void make(const PartSink& sink) noexcept;
     /// Brings the particles for more parts, and returns true; once all are made and their seams are equal, false.
     bool go_on();
-    /// Of the frame that has ended last: it is summed up here, on any thread, as by make().
+    /// Of the frame that has ended last. Its parts' figures are summed up here: on any thread, but not during go_on().
     PartsReport report() const;
 
 private:
