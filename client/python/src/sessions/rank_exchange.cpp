@@ -42,9 +42,9 @@ void RankExchange::all_to_all(std::vector<Bytes>& to, std::vector<Bytes>& from) 
     });
 }
 
-void RankExchange::read_bytes_of_ranks(const py::object& list, std::vector<Bytes>& all) const {
-    if (py::len(list) != ranks_)
-        throw InvalidInput("the exchange has given the bytes of " + std::to_string(py::len(list)) +
+void RankExchange::read_bytes_of_ranks(const py::list& list, std::vector<Bytes>& all) const {
+    if (list.size() != ranks_)
+        throw InvalidInput("the exchange has given the bytes of " + std::to_string(list.size()) +
                            " ranks, must be of " + std::to_string(ranks_));
     all.resize(ranks_);
     for (std::size_t rank = 0; const py::handle each : list) {

@@ -24,7 +24,7 @@ public:
 
 private:
     /// With the lock.
-    void read_bytes_of_ranks(const pybind11::object& list, std::vector<Bytes>& all) const;
+    void read_bytes_of_ranks(const pybind11::list& list, std::vector<Bytes>& all) const;
 
     pybind11::handle exchange_;
     std::size_t rank_;
