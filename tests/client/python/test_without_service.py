@@ -18,13 +18,20 @@ pytestmark = pytest.mark.skipif(meniscusd.program != "", reason="this build has 
         lambda: meniscus.read_bricks("a.bricks"),
         lambda: meniscus.RecordingFile("a.recording"),
         lambda: meniscus.publish([], "site"),
-        lambda: meniscus.reconstruct([[0, 0, 0]], particle_radius).save("a.bricks"),
     ],
 )
 def test_what_needs_it_says_how_the_package_was_built(call, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(meniscus.Error, match="without the service: build it without -DMENISCUS_SERVICE=OFF"):
         call()
+
+
+def test_bricks_are_not_written_without_it(tmp_path):
+    # What encodes them is asked first, and may be missing, too.
+    with pytest.raises(
+        meniscus.Error, match="is not in this build of Meniscus, which was made without (the service|Draco): "
+    ):
+        meniscus.reconstruct([[0, 0, 0]], particle_radius).save(tmp_path / "a.bricks")
 
 
 def test_a_mesh_travels_between_processes(positions, mesh):
