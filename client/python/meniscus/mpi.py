@@ -175,8 +175,8 @@ class _Exchange:
         return [memoryview(together)[end - size : end] for size, end in zip(sizes, ends)]
 
     def trade(self, to: list[bytes]) -> list[_Bytes]:
-        """to: for each rank. Returns the bytes that each has sent to this one. In turns: to each rank, from the one that is
-        as far on the other side."""
+        """to: for each rank. Returns the bytes that each has sent to this one. In turns: to each rank, from the one
+        that is as far on the other side."""
         sizes = self._comm.alltoall([len(each) for each in to])
         received: list[_Bytes] = [b""] * self.ranks
         received[self.rank] = to[self.rank]
