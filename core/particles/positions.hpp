@@ -10,6 +10,11 @@
 
 namespace meniscus {
 
+/// The coordinate that a number stands for between the ends of a quantization box, along one axis.
+MENISCUS_HD inline double decoded(std::uint16_t number, double low, double high) {
+    return low + static_cast<double>(number) * (high - low) / 65535.0;
+}
+
 /// The positions of a frame, in one of the two encodings of ParticleFrame.
 struct PositionsView {
     const float* positions = nullptr;
@@ -20,8 +25,7 @@ struct PositionsView {
     MENISCUS_HD Units3 snapped(std::size_t i) const {
         std::int64_t p[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double x = quantized != nullptr ? low[axis] + static_cast<double>(quantized[3 * i + axis]) *
-                                                                    (high[axis] - low[axis]) / 65535.0
+            const double x = quantized != nullptr ? decoded(quantized[3 * i + axis], low[axis], high[axis])
                                                   : static_cast<double>(positions[3 * i + axis]);
             p[axis] = snap(x, units_per_length);
         }

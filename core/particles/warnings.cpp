@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "meniscus/number_text.hpp"
+#include "particles/positions.hpp"
 #include "particles/spacing.hpp"
 
 namespace meniscus {
@@ -49,8 +50,7 @@ std::optional<Warning> wrong_radius(const ParticleFrame& frame, const Settings& 
 std::size_t particles_in(const Box& domain, const ParticleFrame& frame) {
     const auto coordinate = [&](std::size_t i, std::size_t axis) {
         const Box& box = frame.quantization_box;
-        return frame.is_quantized() ? box.min[axis] + static_cast<double>(frame.quantized[3 * i + axis]) *
-                                                          (box.max[axis] - box.min[axis]) / 65535.0
+        return frame.is_quantized() ? decoded(frame.quantized[3 * i + axis], box.min[axis], box.max[axis])
                                     : static_cast<double>(frame.positions[3 * i + axis]);
     };
     std::size_t inside = 0;

@@ -18,8 +18,9 @@ public:
     /// Particles in the brick of this key, at least one.
     void add(std::uint64_t key, std::uint64_t particles) {
         Count& count = slot_of(key);
+        const bool is_there = count.particles != 0;
         count.particles += particles;
-        if (count.particles != particles) return;
+        if (is_there) return;
         count.key = key;
         if (++bricks_ > slots_.size() / 2) grow();
     }

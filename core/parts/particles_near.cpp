@@ -7,6 +7,7 @@
 #include <ranges>
 #include <utility>
 
+#include "particles/positions.hpp"
 #include "parts/message.hpp"
 
 namespace meniscus {
@@ -121,10 +122,10 @@ NumberBounds ParticlesNear::numbers_within(const Box& box) const {
         float& least = numbers.least[axis];
         float& greatest = numbers.greatest[axis];
         if (frame_.is_quantized()) {
-            const Box& decoded = frame_.quantization_box;
+            const Box& ends = frame_.quantization_box;
             const auto all = std::views::iota(0, 65536);
             const auto coordinate = [&](int number) {
-                return decoded.min[axis] + number * (decoded.max[axis] - decoded.min[axis]) / 65535.0;
+                return decoded(static_cast<std::uint16_t>(number), ends.min[axis], ends.max[axis]);
             };
             const auto from = std::ranges::partition_point(all, [&](int n) { return coordinate(n) < box.min[axis]; });
             const auto to = std::ranges::partition_point(all, [&](int n) { return coordinate(n) <= box.max[axis]; });

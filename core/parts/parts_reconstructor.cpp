@@ -117,9 +117,9 @@ public:
     bool go_on() {
         ++turn_;
         if (turn_ == turns_) {
-            compare();
+            std::vector<PartExchange::Bytes> told = compare();
             if (wanted_.empty()) {
-                finish();
+                finish(std::move(told));
                 return false;
             }
             deal_turns();
@@ -211,15 +211,15 @@ private:
         if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
     }
 
-    /// Of all parts: those whose seams differ are wanted again.
-    void compare() {
-        messages_ = agreement_.gather([&] {
+    /// Of all parts: those whose seams differ are wanted again. Returns what each process tells, PartsTold.
+    std::vector<PartExchange::Bytes> compare() {
+        std::vector<PartExchange::Bytes> told = agreement_.gather([&] {
             rethrow_error();
             return told_.packed();
         });
         agreement_.agree([&] {
             std::vector<PartSeam> seams;
-            for (const PartExchange::Bytes& message : messages_) PartsTold::add_seams(message, seams);
+            for (const PartExchange::Bytes& message : told) PartsTold::add_seams(message, seams);
             report_.parts_made += wanted_.size();
             UnequalSeams unequal = compare_seams(seams, own_);
             report_.unequal_seams += unequal.count;
@@ -233,23 +233,30 @@ private:
                 overlaps_[part] = std::min(2 * overlaps_[part], max_overlap);
             }
         });
+        return told;
     }
 
     /// What is quickly done: the rest is for report().
-    void finish() {
+    void finish(std::vector<PartExchange::Bytes> told) {
         report_.greatest_overlap = *std::max_element(overlaps_.begin(), overlaps_.end());
         Statistics& whole = report_.whole;
         whole.particles = facts_.particles();
         whole.particle_volume = volume_of(facts_.by_level, settings_);
         whole.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-        finished_ = {std::move(report_), std::move(messages_)};
-        if (agreement_.ranks() != 1) return;
-        // The whole frame is here.
-        const PlacedFrame placed(mine_);
-        Statistics summed = report().whole;
+        if (agreement_.ranks() == 1) whole.warnings = warnings_here();
+        finished_ = {std::move(report_), std::move(told)};
+    }
+
+    /// Of the whole frame, which this process alone has.
+    std::vector<Warning> warnings_here() const {
+        const MadePart sum = told_.sum();
+        Statistics figures;
+        for (const std::uint64_t triangles : sum.triangles_by_level) figures.triangles += triangles;
+        figures.spray_particles = sum.spray_particles;
         find_warnings(
-            placed, facts_.by_level, settings_, wrong_radius_, [&] { return told_.sum().greatest_sample; }, summed);
-        finished_.report.whole.warnings = std::move(summed.warnings);
+            PlacedFrame(mine_), facts_.by_level, settings_, wrong_radius_, [&] { return sum.greatest_sample; },
+            figures);
+        return std::move(figures.warnings);
     }
 
     Settings settings_;
@@ -270,9 +277,8 @@ private:
     std::vector<BrickBox> own_;
     std::vector<std::uint32_t> overlaps_;
     std::optional<Warning> wrong_radius_;
-    PartsReport report_;                         ///< without what is summed up of the parts
-    PartsTold told_;                             ///< by this process
-    std::vector<PartExchange::Bytes> messages_;  ///< PartsTold, of each process
+    PartsReport report_;  ///< without what is summed up of the parts
+    PartsTold told_;      ///< by this process
     // Of the round:
     std::vector<std::size_t> wanted_;  ///< the parts to make, in all processes
     std::vector<std::vector<std::size_t>> of_rank_;
@@ -285,7 +291,7 @@ private:
     /// Of the frame that has ended last:
     struct {
         PartsReport report;
-        std::vector<PartExchange::Bytes> told;
+        std::vector<PartExchange::Bytes> told;  ///< by each process, PartsTold
     } finished_;
 };
 

@@ -141,9 +141,8 @@ void run_pushing(const PushingOptions& options) {
     }
     nlohmann::ordered_json summary;
     summary["runs"] =
-        "processor time of a rank's own thread in push(), over that of a copy of its particles; medians "
-        "of " +
-        std::to_string(options.frames) + " frames";
+        "processor time of a rank's own thread in push(), over that of a copy of its particles, medians; frames: " +
+        std::to_string(options.frames);
     summary["input"] = "splashing water that moves, float32 positions alone";
     summary["ranks"] = std::to_string(options.ranks) + " threads, whose exchange sleeps while it waits";
     write_report(options.out, "pushing", summary, rows);

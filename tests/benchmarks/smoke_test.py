@@ -114,6 +114,17 @@ def check_delivery(bench, meniscusd, folder):
     check(int(rows["entropy"]["bytes"]) < int(rows["packed"]["bytes"]), f"delivery: {rows}")
 
 
+def check_pushing(bench, folder):
+    """Each deal has a row with one rank that makes parts, and one with all."""
+    subprocess.run(
+        [bench, "pushing", "--ranks", "2", "--particles", "8000", "--frames", "2", "--out", folder], check=True
+    )
+    rows = read_rows(folder, "pushing")
+    makers = [(row["deal"], row["makers"]) for row in rows]
+    check(makers == [(deal, count) for deal in ("slabs", "at random") for count in "12"], f"pushing: {makers}")
+    check(all(float(row["least_over_a_copy"]) > 1 for row in rows), f"pushing: cheaper than a copy: {rows}")
+
+
 def check_quality(bench, folder):
     """The plain field has the figures that are known for it; wrong input is refused; the page can be written."""
     few = ["--shapes", "drops", "--field", "color", "--mode", "uniform", "--out", folder]
@@ -187,6 +198,7 @@ def main():
         check(lines == [2, 2, 8, 4], f"experiment: lines in the plots are {lines}")
         check_service(bench, sys.argv[2], folder)
         check_delivery(bench, sys.argv[2], folder)
+        check_pushing(bench, folder)
         check_quality(bench, folder)
         check_codecs(bench, min((folder / "particles").glob("*.vtk")), folder)
     check_goals(bench)

@@ -1,30 +1,28 @@
 // Threads that stand for the ranks of a job, for tests of the C interface.
 #pragma once
 
-#include <barrier>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <thread>
 #include <vector>
 
 #include "handles.hpp"
+#include "support/meeting.hpp"
 
 namespace meniscus::test {
 
 class RankMeeting {
 public:
-    explicit RankMeeting(std::size_t ranks) : barrier_(static_cast<std::ptrdiff_t>(ranks)), said_(ranks) {}
+    explicit RankMeeting(std::size_t ranks) : meeting_(ranks), callers_(ranks) {}
 
     /// Of a rank; stays valid as long as this.
     meniscus_exchange exchange(std::uint32_t rank, bool leads_node) {
-        said_[rank].meeting = this;
-        said_[rank].rank = rank;
+        callers_[rank] = {&meeting_, rank};
         return {sizeof(meniscus_exchange),
                 rank,
-                static_cast<std::uint32_t>(said_.size()),
+                static_cast<std::uint32_t>(callers_.size()),
                 leads_node ? 1U : 0U,
-                &said_[rank],
+                &callers_[rank],
                 gather,
                 trade_sizes,
                 trade,
@@ -32,21 +30,15 @@ public:
     }
 
 private:
-    struct Said {
-        RankMeeting* meeting = nullptr;
+    struct Caller {
+        Meeting* meeting = nullptr;
         std::size_t rank = 0;
-        const void* what = nullptr;
     };
 
-    /// Calls take(rank, what) with what each rank has said.
-    template <class Take>
-    static int meet(void* context, const void* what, const Take& take) {
-        Said& mine = *static_cast<Said*>(context);
-        RankMeeting& meeting = *mine.meeting;
-        mine.what = what;
-        meeting.barrier_.arrive_and_wait();
-        for (const Said& its : meeting.said_) take(its.rank, its.what);
-        meeting.barrier_.arrive_and_wait();
+    template <class Read>
+    static int meet(void* context, const void* what, const Read& read) {
+        const Caller& caller = *static_cast<const Caller*>(context);
+        caller.meeting->meet(caller.rank, what, read);
         return 0;
     }
     static int gather(void* context, const void* mine, const std::size_t* sizes, void* all) {
@@ -57,32 +49,29 @@ private:
         });
     }
     static int trade_sizes(void* context, const std::uint64_t* to, std::uint64_t* from) {
-        const std::size_t own = static_cast<Said*>(context)->rank;
+        const std::size_t own = static_cast<const Caller*>(context)->rank;
         return meet(context, to, [&](std::size_t rank, const void* its) {
             from[rank] = static_cast<const std::uint64_t*>(its)[own];
         });
     }
     static int trade(void* context, const void* const* to, const std::uint64_t* /*to_sizes*/, void* const* from,
                      const std::uint64_t* from_sizes) {
-        const std::size_t own = static_cast<Said*>(context)->rank;
+        const std::size_t own = static_cast<const Caller*>(context)->rank;
         return meet(context, to, [&](std::size_t rank, const void* its) {
             if (from_sizes[rank] != 0)
                 std::memcpy(from[rank], static_cast<const void* const*>(its)[own], from_sizes[rank]);
         });
     }
 
-    std::barrier<> barrier_;
-    std::vector<Said> said_;
+    Meeting meeting_;
+    std::vector<Caller> callers_;
 };
 
 /// Runs act(exchange) in a thread for each rank, and waits for all. The first leads the only node.
 template <class Act>
 void on_ranks(std::size_t ranks, const Act& act) {
     RankMeeting meeting(ranks);
-    std::vector<std::thread> threads;
-    for (std::uint32_t rank = 0; rank < ranks; ++rank)
-        threads.emplace_back([&, rank] { act(meeting.exchange(rank, rank == 0)); });
-    for (std::thread& thread : threads) thread.join();
+    in_threads(ranks, [&](std::size_t rank) { act(meeting.exchange(static_cast<std::uint32_t>(rank), rank == 0)); });
 }
 
 }  // namespace meniscus::test

@@ -2,32 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <thread>
 #include <vector>
 
-#include "barrier.hpp"
+#include "meeting.hpp"
 #include "meniscus/parts.hpp"
 
 namespace meniscus::test {
-
-/// The place where threads that stand for processes exchange.
-class Meeting {
-public:
-    explicit Meeting(std::size_t ranks) : barrier_(ranks), shown_(ranks) {}
-    std::size_t ranks() const { return shown_.size(); }
-    /// Shows all what each one has; read(rank, what) gets that of each, while it stays.
-    template <class Read>
-    void meet(std::size_t rank, const void* mine, const Read& read) {
-        shown_[rank] = mine;
-        barrier_.arrive_and_wait();
-        for (std::size_t other = 0; other < ranks(); ++other) read(other, shown_[other]);
-        barrier_.arrive_and_wait();
-    }
-
-private:
-    Barrier barrier_;
-    std::vector<const void*> shown_;
-};
 
 class ThreadExchange final : public PartExchange {
 public:
@@ -56,13 +36,10 @@ private:
 template <class Act>
 void on_ranks(std::size_t ranks, const Act& act) {
     Meeting meeting(ranks);
-    std::vector<std::thread> threads;
-    for (std::size_t rank = 0; rank < ranks; ++rank)
-        threads.emplace_back([&, rank] {
-            ThreadExchange exchange(meeting, rank);
-            act(exchange);
-        });
-    for (std::thread& thread : threads) thread.join();
+    in_threads(ranks, [&](std::size_t rank) {
+        ThreadExchange exchange(meeting, rank);
+        act(exchange);
+    });
 }
 
 }  // namespace meniscus::test
