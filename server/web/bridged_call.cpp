@@ -3,8 +3,18 @@
 #include <grpcpp/generic/generic_stub.h>
 
 #include <boost/asio/post.hpp>
+#include <map>
 
 namespace meniscus::server {
+
+namespace {
+
+std::string value_in(const std::multimap<grpc::string_ref, grpc::string_ref>& metadata, const char* name) {
+    const auto found = metadata.find(name);
+    return found == metadata.end() ? std::string() : std::string(found->second.data(), found->second.size());
+}
+
+}  // namespace
 
 BridgedCall::BridgedCall(std::shared_ptr<boost::asio::io_context> context, Receiver receiver)
     : io_(std::move(context)), work_(io_->get_executor()), receiver_(std::move(receiver)) {}
@@ -31,9 +41,11 @@ void BridgedCall::read() {
 }
 
 std::string BridgedCall::initial_metadata(const char* name) const {
-    const auto& metadata = context_.GetServerInitialMetadata();
-    const auto found = metadata.find(name);
-    return found == metadata.end() ? std::string() : std::string(found->second.data(), found->second.size());
+    return value_in(context_.GetServerInitialMetadata(), name);
+}
+
+std::string BridgedCall::trailing_metadata(const char* name) const {
+    return value_in(context_.GetServerTrailingMetadata(), name);
 }
 
 void BridgedCall::cancel() {

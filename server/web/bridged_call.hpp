@@ -46,6 +46,8 @@ public:
     void read();
     /// What the handler has begun its answer with, once it has admitted the call; empty: nothing of this name.
     std::string initial_metadata(const char* name) const;
+    /// What the handler has ended its answer with, after the end; likewise.
+    std::string trailing_metadata(const char* name) const;
     /// The end follows, as canceled.
     void cancel();
 

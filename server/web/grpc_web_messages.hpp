@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace meniscus::server {
 
@@ -24,7 +26,8 @@ grpc::Status grpc_web_request(std::string_view body, grpc::ByteBuffer& message);
 /// The time that a client gives its call, as gRPC writes it: "100m" is 100 ms. Throws InvalidInput for anything else.
 std::chrono::nanoseconds grpc_timeout(std::string_view text);
 
-/// The message that ends an answer, with its header.
-std::string grpc_web_trailers(const grpc::Status& status);
+/// The message that ends an answer, with its header. metadata: names in lower case, values in printable ASCII.
+std::string grpc_web_trailers(const grpc::Status& status,
+                              const std::vector<std::pair<std::string, std::string>>& metadata = {});
 
 }  // namespace meniscus::server

@@ -79,7 +79,11 @@ void watch(const WatchOptions& options) {
     client::Watcher watcher = client.watch(id, request);
     for (std::uint64_t received = 0; options.frames == 0 || received < options.frames; ++received) {
         const auto frame = next_frame(watcher, options);
-        if (!frame) break;
+        if (!frame) {
+            if (const std::string reason = watcher.end_reason(); !reason.empty() && !options.verbosity.quiet)
+                std::cerr << "The session has ended: " << reason << "\n";
+            break;
+        }
         const auto path = frame_path(options.directory, frame->index, name_of(options.format));
         Surface surface(*frame);
         write_surface(path, surface, options.format);

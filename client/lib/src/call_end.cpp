@@ -38,6 +38,10 @@ bool can_reconnect_after(const grpc::Status& status, const grpc::ClientContext& 
     }
 }
 
+std::string session_end_of(const grpc::ClientContext& context) {
+    return value_in(context.GetServerTrailingMetadata(), "x-session-end");
+}
+
 bool ended_for_idleness(const grpc::ClientContext& context) {
     return value_in(context.GetServerTrailingMetadata(), "x-stream-end") == "idle";
 }

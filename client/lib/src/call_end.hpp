@@ -19,6 +19,9 @@ std::string ended_by(const grpc::ClientContext& context);
 /// on.
 bool can_reconnect_after(const grpc::Status& status, const grpc::ClientContext& context);
 
+/// Why the session of a watcher's call ended, in words. Empty: it has not, or the server is of an older version.
+std::string session_end_of(const grpc::ClientContext& context);
+
 /// Whether the server has ended a stream because nothing came over it for too long.
 bool ended_for_idleness(const grpc::ClientContext& context);
 

@@ -106,6 +106,12 @@ public:
         const std::lock_guard lock(mutex_);
         return canceled_;
     }
+    /// Of the session that has ended, in the server's words; empty before, and where the server has none. From any
+    /// thread.
+    std::string end_reason() {
+        const std::lock_guard lock(mutex_);
+        return end_reason_;
+    }
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -176,6 +182,8 @@ private:
         if (is_canceled()) return false;
         if (status.ok()) {
             call_->receiver.end_of_stream();
+            const std::lock_guard lock(mutex_);
+            end_reason_ = session_end_of(call_->context);
             return false;
         }
         if (!broken_since_) broken_since_ = Clock::now();
@@ -262,6 +270,7 @@ private:
     std::shared_ptr<grpc::ClientContext> finding_;   ///< of the call that looks for the session
     std::shared_ptr<grpc::ClientContext> checking_;  ///< likewise, of the other thread
     bool canceled_ = false;
+    std::string end_reason_;
 
     std::thread route_checker_;
     std::optional<std::stop_callback<std::function<void()>>> on_stop_;

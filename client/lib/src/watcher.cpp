@@ -71,4 +71,8 @@ void Watcher::cancel() {
     impl_->cancel();
 }
 
+std::string Watcher::end_reason() const {
+    return impl_->end_reason();
+}
+
 }  // namespace meniscus::client

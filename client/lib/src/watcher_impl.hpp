@@ -31,6 +31,7 @@ public:
         return wait_.next(timeout);
     }
     void cancel() { call_.cancel(); }
+    std::string end_reason() { return call_.end_reason(); }
 
 private:
     struct Receiver : FrameReceiver {

@@ -15,6 +15,12 @@ class Watcher(Frames[Frame]):
 
     def __init__(self, raw: _meniscus.Watcher) -> None:
         super().__init__(raw, Frame)
+        self._watcher = raw
+
+    @property
+    def end_reason(self) -> str:
+        """Why the session ended, once ``ended``, such as "it was deleted". "": it has not, or is not told."""
+        return self._watcher.end_reason()
 
 
 class ParticleWatcher(Frames[ParticleFrame]):

@@ -1,5 +1,5 @@
 import { create, toBinary } from '@bufbuild/protobuf';
-import { describe, expect, it } from 'vitest';
+import { describe, expect, it, vi } from 'vitest';
 import { Codec } from '../src/gen/meniscus/v1/mesh_pb';
 import { WatchRequestSchema, WatchResponseSchema } from '../src/gen/meniscus/v1/surface_service_pb';
 import { Server } from '../src/rpc/server';
@@ -98,6 +98,18 @@ describe('a call', () => {
     expect((await failure(watchAll(cut))).code).toBe(Code.unavailable);
     const torn = serverThat(() => body(trailers('grpc-status: 0\r\n').slice(0, 9)));
     expect((await failure(watchAll(torn))).message).toContain('within a message');
+  });
+
+  it.each([
+    ['grpc-status:0\r\nx-session-end: it was deleted\r\n', 'it was deleted'],
+    ['grpc-status:0\r\n', ''],
+  ])('says why the session ended that it watched: %j', async (text, reason) => {
+    const server = serverThat(() => body(trailers(text)));
+    const ended = vi.fn();
+    const { signal } = new AbortController();
+    for await (const received of server.watch({ sessionId: 'an-id' }, signal, () => undefined, ended))
+      expect(received).toBeUndefined();
+    expect(ended).toHaveBeenCalledExactlyOnceWith(reason);
   });
 
   it('ends its request when the reader leaves', async () => {

@@ -9,7 +9,7 @@ it('live is said of what is being streamed and shown, and of nothing else', () =
     livenessOf({ kind: 'live' }, false, undefined),
     livenessOf({ kind: 'live' }, false, at),
     livenessOf({ kind: 'paused' }, true, undefined),
-    livenessOf({ kind: 'ended', at }, true, undefined),
+    livenessOf({ kind: 'ended', at, reason: '' }, true, undefined),
     livenessOf({ kind: 'absent', retryAt: 0, reason: '' }, true, undefined),
     livenessOf({ kind: 'waiting', retryAt: 0, reason: '' }, true, undefined),
   ];

@@ -16,6 +16,7 @@ class Call {
     readonly request: WatchOptions,
     readonly signal: AbortSignal,
     readonly open: () => void,
+    readonly explain: (reason: string) => void,
   ) {}
 
   async send(...messages: WatchResponse[]): Promise<void> {
@@ -49,8 +50,9 @@ class FakeServer implements WatchServer {
     request: WatchOptions & { sessionId: string },
     signal: AbortSignal,
     opened: () => void,
+    ended: (reason: string) => void,
   ): AsyncIterable<Received<WatchResponse>> {
-    const call = new Call(request, signal, opened);
+    const call = new Call(request, signal, opened, ended);
     this.calls.push(call);
     return call.messages();
   }
@@ -213,11 +215,12 @@ describe('SessionWatch', () => {
     expect(server.calls.length > 1).toBe(kind === 'waiting' || kind === 'absent');
   });
 
-  it('keeps reporting when the session ended, also to a paused page, and after the server was out of reach', async () => {
+  it('keeps reporting when the session ended and why, also to a paused page, and after the server was out of reach', async () => {
     await server.last.send(...frame({ index: 1 }));
+    server.last.explain('it was deleted');
     await server.last.end();
     const ended = state();
-    expect(ended.kind).toBe('ended');
+    expect(ended).toMatchObject({ kind: 'ended', reason: 'it was deleted' });
     watch.setPaused(true);
     expect(state()).toEqual(ended);
     watch.setPaused(false);

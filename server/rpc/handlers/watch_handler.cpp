@@ -164,6 +164,8 @@ private:
         } else if (const auto* later = std::get_if<Watch::Later>(&next)) {
             write_at(later->at);
         } else if (const auto* end = std::get_if<Watch::End>(&next)) {
+            if (const std::string reason = session_->end_reason(); !end->error && !reason.empty())
+                context_.AddTrailingMetadata("x-session-end", reason);
             finish(to_status(end->error));
         }
     }

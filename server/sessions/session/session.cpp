@@ -391,7 +391,8 @@ std::optional<std::string> Session::unused_as_ephemeral(std::chrono::steady_cloc
     const auto awaited_for = orphan_time.count() == 0 ? awaited_for_ : std::min(awaited_for_, orphan_time);
     const auto kept_for = std::max(limits().ephemeral_time, awaited_for);
     if (now - without_stream_since_ < kept_for) return std::nullopt;
-    return fmt::format("it is ephemeral, and has had no stream for {:.3g} s", seconds_of(kept_for));
+    return fmt::format("{}, and no stream has come for {:.3g} s",
+                       orphaned_ ? "its simulator vanished" : "it is ephemeral", seconds_of(kept_for));
 }
 
 bool Session::has_stream() const {
@@ -424,8 +425,8 @@ void Session::await_stream() {
     without_stream_since_ = last_attended_ = std::chrono::steady_clock::now();
 }
 
-void Session::close() {
-    const Attached attached = detach();
+void Session::close(std::string reason) {
+    const Attached attached = detach(std::move(reason));
     const auto error =
         std::make_exception_ptr(Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id())));
     for (const auto& upload : attached.uploads) {
@@ -435,11 +436,12 @@ void Session::close() {
     for (const auto& watch : attached.watches) watch->finish(watch->options().once ? error : nullptr);
 }
 
-Session::Attached Session::detach() {
+Session::Attached Session::detach(std::string reason) {
     Attached attached;
     {
         const std::lock_guard lock(mutex_);
         if (std::exchange(closed_, true)) return attached;
+        end_reason_ = std::move(reason);
         set_upload(nullptr);
         attached.uploads.swap(unanswered_);
         attached.watches = watchers_.list();
@@ -455,6 +457,11 @@ Session::Attached Session::detach() {
 bool Session::ended() const {
     const std::lock_guard lock(mutex_);
     return closed_;
+}
+
+std::string Session::end_reason() const {
+    const std::lock_guard lock(mutex_);
+    return end_reason_;
 }
 
 void Session::join() {

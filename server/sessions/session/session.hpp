@@ -132,10 +132,12 @@ public:
     void touch();
     /// A caller has joined it, to stream: an ephemeral session is kept as if it had just been created.
     void await_stream();
-    /// Drops what is in flight, and ends the upload and the watchers. Returns at once.
-    void close();
+    /// Drops what is in flight, and ends the upload and the watchers. Returns at once. reason: for them.
+    void close(std::string reason = "it was deleted");
     /// Whether the session was closed or has moved to another server, or a GPU that failed has ended it.
     bool ended() const;
+    /// Of close(); empty: it has not been closed, or had ended before.
+    std::string end_reason() const;
     /// After its end: waits until the session's threads have ended, and frees its memory. Once, and not from one of
     /// them.
     void join();
@@ -146,7 +148,7 @@ private:
         std::vector<std::shared_ptr<Watch>> watches;
     };
     /// Ends the threads' work. Returns the streams and watchers to end: none from the second call on.
-    Attached detach();
+    Attached detach(std::string reason = {});
 
     // With the lock held.
 
@@ -205,6 +207,7 @@ private:
     std::chrono::milliseconds awaited_for_{0};  ///< its simulator, since its end
     bool draining_ = false;
     bool closed_ = false;
+    std::string end_reason_;
 
     // Last: they use the others.
     EncodingThread encoding_;

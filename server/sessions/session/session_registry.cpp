@@ -83,7 +83,7 @@ SessionRegistry::~SessionRegistry() {
     idle_check_.reset();
     removed_.close();
     joining_.join();
-    for (const auto& [id, session] : sessions_) session->close();
+    for (const auto& [id, session] : sessions_) session->close("the server goes down");
 }
 
 SessionRegistry::Created SessionRegistry::create(const std::string& id, const Settings& settings,
@@ -295,7 +295,7 @@ void SessionRegistry::end_idle(std::chrono::steady_clock::time_point now) {
             sessions_.erase(found);
             let_end(session);
         }
-        session->close();
+        session->close(*reason);
         call_log.write({.session = session->id()}, "removed: {}", *reason);
     }
 }

@@ -139,6 +139,17 @@ TEST_F(Operators, MayStopWatchingASessionThatRests) {
         << result.err;
 }
 
+TEST_F(Operators, AreToldWhyTheSessionEndedThatTheyWatch) {
+    std::thread deleting([&] {
+        while (client.session(id).watchers == 0) std::this_thread::yield();
+        client.delete_session(id);
+    });
+    const ProcessResult result = run({"watch", id, "-o", (directory / "meshes").string()});
+    deleting.join();
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_TRUE(result.err.ends_with("The session has ended: it was deleted\n")) << result.err;
+}
+
 TEST_F(Operators, EndWatchingWithTheReaderOfWhatIsSaid) {
     std::array<int, 2> pipe{};
     ASSERT_EQ(::pipe2(pipe.data(), O_CLOEXEC), 0);

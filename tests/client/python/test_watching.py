@@ -30,6 +30,15 @@ def test_a_watcher_gets_the_newest_mesh(shown, client, mesh):
         assert watcher.next(0) is None and watcher.next(0.01) is None and not watcher.ended
 
 
+def test_a_watcher_says_why_its_session_ended(client):
+    session = client.session(particle_radius=particle_radius)
+    with session.watch() as watcher:
+        assert watcher.end_reason == ""
+        session.end()
+        assert watcher.next(60) is None and watcher.ended
+        assert watcher.end_reason == "it was deleted"
+
+
 def test_bricks_that_change_are_named(client):
     with client.session(particle_radius=particle_radius) as session, session.stream() as stream:
         with session.watch() as watcher:

@@ -136,6 +136,7 @@ TEST(EphemeralSessions, EndWithTheirStreamAndTheirWatchersEndWell) {
     EXPECT_FALSE(stream.next());
     ASSERT_TRUE(watcher.next());
     EXPECT_FALSE(watcher.next());
+    EXPECT_EQ(watcher.end_reason(), "it is ephemeral, and no stream has come for 1 s");
     EXPECT_TRUE(running.client.sessions().empty());
 }
 
@@ -149,7 +150,11 @@ TEST(EphemeralSessions, OfAProcessThatWasKilledEnd) {
     auto stream = far.stream(id);
     stream.push(wave(4, 0.0).view(), 0, 0.0);
     ASSERT_TRUE(stream.next());
+    auto watcher = running.client.watch(id);
+    ASSERT_TRUE(watcher.next());
     proxy.cut();
+    EXPECT_FALSE(watcher.next());
+    EXPECT_EQ(watcher.end_reason(), "its simulator vanished, and no stream has come for 1 s");
     wait_until_gone(running);
 }
 

@@ -127,12 +127,14 @@ TEST(Watch, ReceivesOnlyWhatChangedAndHasTheWholeMeshOfEveryFrame) {
     for (const Codec codec : codecs) watch_what_changes(running, codec);
 }
 
-TEST(Watch, EndsWithItsSession) {
+TEST(Watch, EndsWithItsSessionAndSaysWhy) {
     RunningServer running;
     const std::string id = running.session();
     auto watcher = running.client.watch(id);
     running.client.delete_session(id);
+    EXPECT_EQ(watcher.end_reason(), "");
     EXPECT_FALSE(watcher.next());
+    EXPECT_EQ(watcher.end_reason(), "it was deleted");
 }
 
 TEST(Watch, EndsWhenItsCallerCancels) {

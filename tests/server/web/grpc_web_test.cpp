@@ -213,13 +213,14 @@ TEST_F(GrpcWebCalls, EndWhenTheBrowserLeaves) {
     EXPECT_TRUE(becomes(running.client, id, 0));
 }
 
-TEST_F(GrpcWebCalls, EndWithTheirSession) {
+TEST_F(GrpcWebCalls, EndWithTheirSessionAndSayWhy) {
     WebCall call(http, watch, watch_request(id), about_session());
     ASSERT_TRUE(becomes(running.client, id, 1));
     running.client.delete_session(id);
     while (call.next()) {
     }
     EXPECT_EQ(call.status, 0);
+    EXPECT_EQ(call.session_end, "it was deleted");
 }
 
 TEST_F(GrpcWebCalls, EndWithTheServer) {

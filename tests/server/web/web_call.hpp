@@ -44,7 +44,7 @@ public:
         header.resize(end);
     }
 
-    /// The next message; none after the trailers, which `status` and `message` then hold.
+    /// The next message; none after the trailers, which `status`, `message` and `session_end` then hold.
     std::optional<std::string> next() {
         constexpr std::size_t header_bytes = 5;
         for (;;) {
@@ -69,6 +69,7 @@ public:
     std::string header;
     int status = -1;
     std::string message;
+    std::string session_end;
 
 private:
     bool more(std::string& to) {
@@ -100,6 +101,7 @@ private:
         };
         status = std::stoi(value("grpc-status"));
         message = value("grpc-message");
+        session_end = value("x-session-end");
     }
 
     HttpClient client_;

@@ -18,7 +18,7 @@ client::ParticleWatchOptions particle_watch_options(const text_options::Options&
 }
 
 void bind_watcher(py::module_& module) {
-    bind_source<WatchSource>(module, "Watcher");
+    bind_source<WatchSource>(module, "Watcher").def("end_reason", &WatchSource::end_reason);
     bind_source<ParticleSource>(module, "ParticleWatcher");
 }
 

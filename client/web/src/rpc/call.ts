@@ -29,6 +29,8 @@ export interface CallOptions {
   readonly metadata: Readonly<Record<string, string>>;
   /** The server has taken the call. */
   readonly opened?: () => void;
+  /** The call has ended with OK and these trailers. */
+  readonly ended?: (trailers: ReadonlyMap<string, string>) => void;
 }
 
 export interface Received<Message> {
@@ -117,6 +119,7 @@ async function* answer(
       const trailers = parseTrailers(message.data);
       const error = statusError((name) => trailers.get(name));
       if (error) throw error;
+      options.ended?.(trailers);
       return;
     }
   throw new RpcError(

@@ -86,18 +86,22 @@ export class Server {
     );
   }
 
-  /** opened: the server has taken the call. */
+  /** opened: the server has taken the call. ended: it has ended well, with its session; reason: "" of an older server. */
   watch(
     request: WatchRequestInit & { sessionId: string },
     signal: AbortSignal,
     opened: () => void,
+    ended?: (reason: string) => void,
   ): AsyncIterable<Received<WatchResponse>> {
     return this.meshes(signal, (codecs) =>
       serverStream(
         this.endpoint,
         SurfaceService.method.watch,
         { ...request, ...this.normals, codecs, withSpray: true },
-        this.options(signal, request.sessionId, opened),
+        {
+          ...this.options(signal, request.sessionId, opened),
+          ended: (trailers) => ended?.(trailers.get('x-session-end') ?? ''),
+        },
       ),
     );
   }

@@ -16,6 +16,7 @@ export interface WatchServer {
     request: WatchOptions & { sessionId: string },
     signal: AbortSignal,
     opened: () => void,
+    ended: (reason: string) => void,
   ): AsyncIterable<Received<WatchResponse>>;
 }
 
@@ -50,6 +51,8 @@ export class SessionWatch {
   private over = false;
   /** When the session ended, ms since 1970; its simulator may make it again. */
   private endedAt: number | undefined;
+  /** In the server's words; "": unknown. */
+  private endReason = '';
   /** The kind of the last state that was reported. */
   private reported: WatchState['kind'] | undefined;
 
@@ -109,7 +112,8 @@ export class SessionWatch {
         this.report({ kind: 'connected' });
     };
     try {
-      for await (const { message, bytes } of this.server.watch(this.request(), signal, opened)) {
+      const ended = (reason: string): void => void (this.endReason = reason);
+      for await (const { message, bytes } of this.server.watch(this.request(), signal, opened, ended)) {
         if (signal.aborted) return;
         this.take(receiver, message, bytes);
       }
@@ -175,7 +179,7 @@ export class SessionWatch {
   /** Reports the end, unless that was the last report; false: the session has not ended. After a failed try the end is reported again. */
   private reportEnd(): boolean {
     if (this.endedAt === undefined) return false;
-    if (this.reported !== 'ended') this.report({ kind: 'ended', at: this.endedAt });
+    if (this.reported !== 'ended') this.report({ kind: 'ended', at: this.endedAt, reason: this.endReason });
     return true;
   }
 

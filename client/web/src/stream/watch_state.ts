@@ -14,7 +14,7 @@ export type WatchState =
   | { readonly kind: 'waiting'; readonly retryAt: number; readonly reason: string }
   /** There is no such session on the server, or none any more; it is looked for again at that time of the page's clock, ms. */
   | { readonly kind: 'absent'; readonly retryAt: number; readonly reason: string }
-  /** at: ms since 1970. */
-  | { readonly kind: 'ended'; readonly at: number }
+  /** at: ms since 1970. reason: the server's words, within a sentence; "": unknown. */
+  | { readonly kind: 'ended'; readonly at: number; readonly reason: string }
   | { readonly kind: 'token'; readonly reason: string }
   | { readonly kind: 'refused'; readonly reason: string };

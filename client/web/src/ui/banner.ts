@@ -36,7 +36,7 @@ export class Banner {
         return;
       case 'ended':
         this.say(
-          `The session has ended at ${clockText(state.at)}. What came last stays on the screen; should its simulator return, so does the picture.`,
+          `The session has ended at ${clockText(state.at)}${state.reason && `: ${state.reason}`}. What came last stays on the screen; should its simulator return, so does the picture.`,
         );
         return;
       case 'token':

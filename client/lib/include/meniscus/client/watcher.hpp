@@ -117,6 +117,9 @@ public:
     Next<ReceivedFrame> try_next() { return next(std::chrono::milliseconds(0)); }
     /// From any thread: ends the call, and a next() that waits; it then returns none.
     void cancel();
+    /// From any thread, once next() has returned none: why the session ended, such as "it was deleted". Empty: it has
+    /// not ended, or the server is of an older version.
+    std::string end_reason() const;
 
 private:
     friend class Client;
