@@ -1,13 +1,12 @@
 // The arrays of particles, from the files of every format and back to them.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "formats/bytes/atomic_file.hpp"
 #include "formats/containers/array_collector.hpp"
 #include "formats/particles/particle_file.hpp"
 #include "formats/particles/particle_readers.hpp"
 #include "sample_files.hpp"
+#include "sample_values.hpp"
 
 namespace meniscus::test {
 namespace {
@@ -15,21 +14,6 @@ namespace {
 using formats::NamedValues;
 using formats::ParticleFormat;
 using formats::Particles;
-
-template <class T>
-NamedValues values_of(const std::string& name, ElementType type, std::size_t components,
-                      const std::vector<T>& numbers) {
-    NamedValues out{name, type, components, std::vector<std::byte>(numbers.size() * sizeof(T))};
-    std::memcpy(out.data.data(), numbers.data(), out.data.size());
-    return out;
-}
-
-template <class T>
-std::vector<T> numbers_of(const NamedValues& values) {
-    std::vector<T> out(values.data.size() / sizeof(T));
-    std::memcpy(out.data(), values.data.data(), values.data.size());
-    return out;
-}
 
 void expect_same(const std::vector<NamedValues>& read, const std::vector<NamedValues>& written) {
     ASSERT_EQ(read.size(), written.size());

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <filesystem>
 
 #include "bgeo_sample.hpp"
@@ -11,19 +10,13 @@
 #include "formats/particles/particle_readers.hpp"
 #include "meniscus/mesh.hpp"
 #include "sample_files.hpp"
+#include "sample_values.hpp"
 
 namespace meniscus::test {
 namespace {
 
 formats::Particles read_sample(const std::string& bytes, std::uint64_t most = std::uint64_t{1} << 30) {
     return formats::read_bgeo("f", bytes, formats::ReadLimits{most});
-}
-
-template <class T>
-std::vector<T> values(const formats::NamedValues& array) {
-    std::vector<T> out(array.data.size() / sizeof(T));
-    std::memcpy(out.data(), array.data.data(), array.data.size());
-    return out;
 }
 
 TEST(BgeoReader, ReadsPointsVectorsAndIdsGzippedOrNot) {
@@ -33,10 +26,10 @@ TEST(BgeoReader, ReadsPointsVectorsAndIdsGzippedOrNot) {
         ASSERT_EQ(particles.arrays.size(), 2U);
         EXPECT_EQ(particles.arrays[0].name, "velocity");
         EXPECT_EQ(particles.arrays[0].components, 3U);
-        EXPECT_EQ(values<float>(particles.arrays[0]), (std::vector<float>{10, 20, 30, 11, 21, 31}));
+        EXPECT_EQ(numbers_of<float>(particles.arrays[0]), (std::vector<float>{10, 20, 30, 11, 21, 31}));
         EXPECT_EQ(particles.arrays[1].name, "id");
         EXPECT_EQ(particles.arrays[1].type, ElementType::int32);
-        EXPECT_EQ(values<std::int32_t>(particles.arrays[1]), (std::vector<std::int32_t>{7, -2}));
+        EXPECT_EQ(numbers_of<std::int32_t>(particles.arrays[1]), (std::vector<std::int32_t>{7, -2}));
     }
 }
 

@@ -1,22 +1,14 @@
 // DualSPHysics: files made by the layout.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "bi4_sample.hpp"
 #include "formats/particles/particle_readers.hpp"
 #include "formats/particles/particles.hpp"
 #include "sample_files.hpp"
+#include "sample_values.hpp"
 
 namespace meniscus::test {
 namespace {
-
-template <class T>
-std::vector<T> bi4_numbers(const formats::NamedValues& array) {
-    std::vector<T> out(array.data.size() / sizeof(T));
-    std::memcpy(out.data(), array.data.data(), array.data.size());
-    return out;
-}
 
 std::string said_of_bi4(const std::string& bytes) {
     return refusal([&] { formats::read_bi4("f", bytes); });
@@ -29,11 +21,11 @@ TEST(Bi4, TheFluidIsReadInBothByteOrdersAndWidthsOfSizes) {
         ASSERT_EQ(particles.arrays.size(), 3U);
         EXPECT_EQ(particles.arrays[0].name, "id");
         EXPECT_EQ(particles.arrays[0].type, ElementType::uint32);
-        EXPECT_EQ(bi4_numbers<std::uint32_t>(particles.arrays[0]), (std::vector<std::uint32_t>{9, 5}));
+        EXPECT_EQ(numbers_of<std::uint32_t>(particles.arrays[0]), (std::vector<std::uint32_t>{9, 5}));
         EXPECT_EQ(particles.arrays[1].name, "velocity");
-        EXPECT_EQ(bi4_numbers<float>(particles.arrays[1]), (std::vector<float>{10, 20, 30, 40, 50, 60}));
+        EXPECT_EQ(numbers_of<float>(particles.arrays[1]), (std::vector<float>{10, 20, 30, 40, 50, 60}));
         EXPECT_EQ(particles.arrays[2].name, "density");
-        EXPECT_EQ(bi4_numbers<float>(particles.arrays[2]), (std::vector<float>{1000, 1001}));
+        EXPECT_EQ(numbers_of<float>(particles.arrays[2]), (std::vector<float>{1000, 1001}));
     }
 }
 
@@ -45,7 +37,7 @@ TEST(Bi4, PositionsOfFloat64AndIdsOf64BitsAreRead) {
     EXPECT_EQ(particles.positions, (std::vector<float>{0.1F, 5, 6}));
     EXPECT_NEAR(particles.coordinate(0), 0.1, 1e-15) << "an origin is subtracted from float64";
     ASSERT_EQ(particles.arrays.size(), 1U);
-    EXPECT_EQ(bi4_numbers<std::uint32_t>(particles.arrays[0]), std::vector<std::uint32_t>{4'000'000'000U});
+    EXPECT_EQ(numbers_of<std::uint32_t>(particles.arrays[0]), std::vector<std::uint32_t>{4'000'000'000U});
 }
 
 TEST(Bi4, ArraysOfOtherFormsAreLeftOutWithTheReason) {

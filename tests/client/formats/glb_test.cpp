@@ -12,21 +12,13 @@
 #include "formats/meshes/glb_writer.hpp"
 #include "formats/meshes/usda_writer.hpp"
 #include "sample_files.hpp"
+#include "sample_values.hpp"
 
 namespace meniscus::test {
 namespace {
 
 using formats::TriangleMesh;
 using nlohmann::json;
-
-template <class T>
-formats::NamedValues values(const std::string& name, ElementType type, std::size_t components,
-                            const std::vector<T>& numbers) {
-    formats::NamedValues out{name, type, components, {}};
-    out.data.resize(numbers.size() * sizeof(T));
-    std::memcpy(out.data.data(), numbers.data(), out.data.size());
-    return out;
-}
 
 /// With an attribute of every form.
 TriangleMesh attributed_tetrahedron() {
@@ -36,12 +28,12 @@ TriangleMesh attributed_tetrahedron() {
     mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     mesh.levels = {1, 2, 3, 0};
     mesh.attributes = {
-        values<float>("velocity", ElementType::float32, 3, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}),
-        values<float>("age", ElementType::float32, 1, {0.5F, 1.5F, 2.5F, 3.5F}),
-        values<std::uint8_t>("color", ElementType::uint8, 3, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 255}),
-        values<std::uint8_t>("phase", ElementType::uint8, 1, {0, 1, 2, 255}),
-        values<std::int32_t>("id", ElementType::int32, 1, {-7, 0, 5, 1 << 24}),
-        values<std::uint32_t>("far", ElementType::uint32, 1, {1, 2, 3, 4'000'000'001U}),
+        values_of<float>("velocity", ElementType::float32, 3, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}),
+        values_of<float>("age", ElementType::float32, 1, {0.5F, 1.5F, 2.5F, 3.5F}),
+        values_of<std::uint8_t>("color", ElementType::uint8, 3, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 255}),
+        values_of<std::uint8_t>("phase", ElementType::uint8, 1, {0, 1, 2, 255}),
+        values_of<std::int32_t>("id", ElementType::int32, 1, {-7, 0, 5, 1 << 24}),
+        values_of<std::uint32_t>("far", ElementType::uint32, 1, {1, 2, 3, 4'000'000'001U}),
     };
     return mesh;
 }
@@ -190,7 +182,7 @@ TEST(UsdaWriter, NamesBeginWithNoDigitAndStayDistinct) {
     TriangleMesh mesh = attributed_tetrahedron();
     mesh.attributes.clear();
     for (const char* name : {"2nd", "_2nd", "__2nd", "_second", "second_2"})
-        mesh.attributes.push_back(values<float>(name, ElementType::float32, 1, {1, 2, 3, 4}));
+        mesh.attributes.push_back(values_of<float>(name, ElementType::float32, 1, {1, 2, 3, 4}));
     formats::write_usda(directory / "a.usda", mesh);
     formats::write_usda_clips(directory / "all.usda", {}, mesh);
     for (const std::string& text : {text_of(directory / "a.usda"), text_of(directory / "all.usda")}) {

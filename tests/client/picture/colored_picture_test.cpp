@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "cli/cli_fixture.hpp"
 #include "meniscus/error.hpp"
@@ -11,17 +10,10 @@
 #include "picture/lettering.hpp"
 #include "picture/picture.hpp"
 #include "picture/shown_values.hpp"
+#include "sample_values.hpp"
 
 namespace meniscus::cli {
 namespace {
-
-template <class Number>
-formats::NamedValues named(const std::string& name, ElementType type, std::size_t components,
-                           const std::vector<Number>& numbers) {
-    formats::NamedValues values{name, type, components, std::vector<std::byte>(numbers.size() * sizeof(Number))};
-    std::memcpy(values.data.data(), numbers.data(), values.data.size());
-    return values;
-}
 
 /// A square that faces the viewer, its left vertices 0 and 1, its right ones 2 and 3.
 formats::TriangleMesh square(formats::NamedValues values) {
@@ -103,7 +95,7 @@ TEST(ValueRange, HasRoundTicksWithin) {
 
 TEST(ShownValues, AreMagnitudesComponentsColorsOrIds) {
     const auto velocity =
-        square(named<float>("velocity", ElementType::float32, 3, {3, 4, 0, 0, 0, 2, -1, 0, 0, 0, 0, 0}));
+        square(test::values_of<float>("velocity", ElementType::float32, 3, {3, 4, 0, 0, 0, 2, -1, 0, 0, 0, 0, 0}));
     EXPECT_EQ(values_to_show(velocity, "velocity").numbers, (std::vector<float>{5, 2, 1, 0}));
     EXPECT_EQ(values_to_show(velocity, "velocity").title, "velocity, magnitude");
     const ShownValues x = values_to_show(velocity, "velocity.x");
@@ -111,23 +103,24 @@ TEST(ShownValues, AreMagnitudesComponentsColorsOrIds) {
     EXPECT_EQ(x.range->low, -1.0);
     EXPECT_EQ(x.range->high, 3.0);
     const std::vector<std::uint8_t> bytes{255, 0, 9, 1, 2, 3, 4, 5, 6, 7, 8, 9};
-    const ShownValues color = values_to_show(square(named("color", ElementType::uint8, 3, bytes)), "color");
+    const ShownValues color = values_to_show(square(test::values_of("color", ElementType::uint8, 3, bytes)), "color");
     EXPECT_EQ(color.colors[0], (Rgb{255, 0, 9}));
     EXPECT_FALSE(color.nearest);
-    EXPECT_FALSE(values_to_show(square(named("bytes", ElementType::uint8, 3, bytes)), "bytes").numbers.empty());
+    EXPECT_FALSE(
+        values_to_show(square(test::values_of("bytes", ElementType::uint8, 3, bytes)), "bytes").numbers.empty());
     const ShownValues ids =
-        values_to_show(square(named<std::int32_t>("id", ElementType::int32, 1, {0, 1, -7, 2})), "id");
+        values_to_show(square(test::values_of<std::int32_t>("id", ElementType::int32, 1, {0, 1, -7, 2})), "id");
     EXPECT_EQ(ids.colors[2], color_of_id(static_cast<std::uint32_t>(-7)));
     EXPECT_TRUE(ids.nearest);
 }
 
 TEST(ShownValues, AreFoundByTheNameThatTheFileOfTheParticlesHas) {
-    const auto mesh = square(named<float>("temperature__k_", ElementType::float32, 1, {0, 1, 2, 3}));
+    const auto mesh = square(test::values_of<float>("temperature__k_", ElementType::float32, 1, {0, 1, 2, 3}));
     EXPECT_EQ(values_to_show(mesh, "Temperature (K)").numbers, (std::vector<float>{0, 1, 2, 3}));
 }
 
 TEST(ShownValues, AreRefusedWithWhatThereIs) {
-    const auto mesh = square(named<float>("age", ElementType::float32, 1, {0, 1, 2, 3}));
+    const auto mesh = square(test::values_of<float>("age", ElementType::float32, 1, {0, 1, 2, 3}));
     for (const auto& [what, words] : std::vector<std::pair<std::string, std::string>>{
              {"velocity", "no attribute 'velocity' to color by; it has age"},
              {"age.y", "'age' has no component y: it has 1"}})
@@ -141,7 +134,7 @@ TEST(ShownValues, AreRefusedWithWhatThereIs) {
 }
 
 TEST(ColoredPicture, ShowsEachValueInItsColor) {
-    const auto mesh = square(named<float>("speed", ElementType::float32, 1, {0, 0, 5, 5}));
+    const auto mesh = square(test::values_of<float>("speed", ElementType::float32, 1, {0, 0, 5, 5}));
     const formats::Image image = draw_picture(mesh, options("speed"));
     // The square is as high as what the legend leaves; its corners are near these columns.
     const std::size_t row = 100;
@@ -158,7 +151,7 @@ TEST(ColoredPicture, ShowsEachValueInItsColor) {
 }
 
 TEST(ColoredPicture, HasALegendBelow) {
-    const auto mesh = square(named<float>("speed", ElementType::float32, 1, {0, 0, 5, 5}));
+    const auto mesh = square(test::values_of<float>("speed", ElementType::float32, 1, {0, 0, 5, 5}));
     PictureOptions wanted = options("speed");
     wanted.color_map = ColorMap::coolwarm;
     const formats::Image image = draw_picture(mesh, wanted);
@@ -166,7 +159,7 @@ TEST(ColoredPicture, HasALegendBelow) {
 }
 
 TEST(ColoredPicture, ClampsToARangeByHand) {
-    const auto mesh = square(named<float>("speed", ElementType::float32, 1, {7, 7, 7, 7}));
+    const auto mesh = square(test::values_of<float>("speed", ElementType::float32, 1, {7, 7, 7, 7}));
     PictureOptions wanted = options("speed");
     wanted.range = ValueRange{0.0, 1.0};
     expect_shade_of(color_at(draw_picture(mesh, wanted), 200, 100), color_of(ColorMap::viridis, 1.0));
@@ -177,9 +170,9 @@ TEST(ColoredPicture, ClampsToARangeByHand) {
 TEST(ColoredPicture, MixesColorsAndNoIds) {
     const std::vector<std::uint8_t> bytes{200, 0, 0, 200, 0, 0, 0, 0, 200, 0, 0, 200};
     expect_shade_of(
-        color_at(draw_picture(square(named("rgb", ElementType::uint8, 3, bytes)), options("rgb")), 200, 100),
+        color_at(draw_picture(square(test::values_of("rgb", ElementType::uint8, 3, bytes)), options("rgb")), 200, 100),
         {100, 0, 100});
-    const auto ids = square(named<std::uint32_t>("id", ElementType::uint32, 1, {1, 1, 2, 2}));
+    const auto ids = square(test::values_of<std::uint32_t>("id", ElementType::uint32, 1, {1, 1, 2, 2}));
     const formats::Image image = draw_picture(ids, options("id"));
     expect_shade_of(color_at(image, 110, 100), color_of_id(1));
     expect_shade_of(color_at(image, 290, 100), color_of_id(2));
@@ -187,14 +180,15 @@ TEST(ColoredPicture, MixesColorsAndNoIds) {
 
 TEST(ColoredPicture, IsDrawnOfAnEmptyMeshAndInAnySize) {
     auto empty = formats::TriangleMesh{};
-    empty.attributes.push_back(named<float>("speed", ElementType::float32, 1, {}));
+    empty.attributes.push_back(test::values_of<float>("speed", ElementType::float32, 1, {}));
     EXPECT_EQ(draw_picture(empty, options("speed")).pixels.size(), 3U * 400U * 300U);
     for (const std::size_t size : {1U, 2U, 7U, 30U}) {
         PictureOptions tiny = options("speed");
         tiny.width = tiny.height = size;
-        EXPECT_EQ(draw_picture(square(named<float>("speed", ElementType::float32, 1, {0, 1e30F, -1e30F, 5})), tiny)
-                      .pixels.size(),
-                  3 * size * size);
+        EXPECT_EQ(
+            draw_picture(square(test::values_of<float>("speed", ElementType::float32, 1, {0, 1e30F, -1e30F, 5})), tiny)
+                .pixels.size(),
+            3 * size * size);
     }
 }
 

@@ -1,0 +1,28 @@
+// Values with a name, made of numbers and read back.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "formats/containers/named_values.hpp"
+
+namespace meniscus::test {
+
+template <class Number>
+formats::NamedValues values_of(const std::string& name, ElementType type, std::size_t components,
+                               const std::vector<Number>& numbers) {
+    const auto bytes = std::as_bytes(std::span(numbers));
+    return {name, type, components, {bytes.begin(), bytes.end()}};
+}
+
+template <class Number>
+std::vector<Number> numbers_of(const formats::NamedValues& values) {
+    std::vector<Number> numbers(values.data.size() / sizeof(Number));
+    std::ranges::copy(values.data, std::as_writable_bytes(std::span(numbers)).begin());
+    return numbers;
+}
+
+}  // namespace meniscus::test
