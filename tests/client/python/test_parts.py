@@ -29,7 +29,7 @@ def together(*works):
 
 
 def test_the_mesh_of_parts_is_that_of_the_whole_however_they_are_dealt_out(client):
-    x = ball(8)
+    x = ball(3)
     marks = np.arange(len(x), dtype=np.uint32)
     whole = meniscus.reconstruct(x, particle_radius, attributes={"mark": marks})
     owner = np.random.default_rng(7).integers(0, 3, len(x))
