@@ -117,10 +117,7 @@ void GrpcWebExchange::receive(const grpc::ByteBuffer& message) {
 void GrpcWebExchange::finish(const grpc::Status& status) {
     call_ended_ = true;
     if (departed_) return depart();
-    std::vector<std::pair<std::string, std::string>> metadata;
-    if (std::string reason = call_->trailing_metadata("x-session-end"); !reason.empty())
-        metadata.emplace_back("x-session-end", std::move(reason));
-    trailers_ = grpc_web_trailers(status, metadata);
+    trailers_ = grpc_web_trailers(status, {{"x-session-end", call_->trailing_metadata("x-session-end")}});
     buffers_.assign(1, boost::asio::buffer(trailers_));
     if (!header_sent_)
         write_header();

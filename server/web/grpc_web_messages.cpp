@@ -85,7 +85,8 @@ std::string grpc_web_trailers(const grpc::Status& status,
     std::string text = fmt::format("grpc-status: {}\r\n", static_cast<int>(status.error_code()));
     if (!status.error_message().empty())
         text += fmt::format("grpc-message: {}\r\n", percent_encoded(status.error_message()));
-    for (const auto& [name, value] : metadata) text += fmt::format("{}: {}\r\n", name, value);
+    for (const auto& [name, value] : metadata)
+        if (!value.empty()) text += fmt::format("{}: {}\r\n", name, value);
     GrpcWebHeader header = grpc_web_header(text.size());
     header[0] = trailers_flag;
     return std::string(header.begin(), header.end()) + text;

@@ -26,7 +26,8 @@ grpc::Status grpc_web_request(std::string_view body, grpc::ByteBuffer& message);
 /// The time that a client gives its call, as gRPC writes it: "100m" is 100 ms. Throws InvalidInput for anything else.
 std::chrono::nanoseconds grpc_timeout(std::string_view text);
 
-/// The message that ends an answer, with its header. metadata: names in lower case, values in printable ASCII.
+/// The message that ends an answer, with its header. metadata: names in lower case, values in printable ASCII; those
+/// that are empty are left out.
 std::string grpc_web_trailers(const grpc::Status& status,
                               const std::vector<std::pair<std::string, std::string>>& metadata = {});
 

@@ -11,6 +11,7 @@
 
 namespace meniscus::test {
 
+/// numbers: all of the first particle or vertex, then those of the next.
 template <class Number>
 formats::NamedValues values_of(const std::string& name, ElementType type, std::size_t components,
                                const std::vector<Number>& numbers) {
@@ -18,8 +19,9 @@ formats::NamedValues values_of(const std::string& name, ElementType type, std::s
     return {name, type, components, {bytes.begin(), bytes.end()}};
 }
 
-template <class Number>
-std::vector<Number> numbers_of(const formats::NamedValues& values) {
+/// Of NamedValues or a ParticleArray.
+template <class Number, class Values>
+std::vector<Number> numbers_of(const Values& values) {
     std::vector<Number> numbers(values.data.size() / sizeof(Number));
     std::ranges::copy(values.data, std::as_writable_bytes(std::span(numbers)).begin());
     return numbers;

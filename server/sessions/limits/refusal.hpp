@@ -35,6 +35,11 @@ public:
     explicit IdleStream(const std::string& message) : LimitReached(LimitName::idle_time, message) {}
 };
 
+/// reason: for people; empty: unknown.
+inline Refusal session_ended(const std::string& id, const std::string& reason) {
+    return {Refusal::Kind::not_found, "session " + id + " has ended" + (reason.empty() ? "" : ": " + reason)};
+}
+
 inline Refusal moved() {
     return {Refusal::Kind::unavailable, "the session has moved to another server: call again"};
 }

@@ -210,7 +210,7 @@ void ReconstructingThread::throw_stopped(std::uint64_t index) const {
                 index, seconds));
         }
         case FrameStop::Reason::closed:
-            throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id));
+            throw session_ended(id, {});
         case FrameStop::Reason::canceled:
         case FrameStop::Reason::none:
             break;

@@ -81,7 +81,7 @@ void Session::open_upload(const std::shared_ptr<Upload>& upload) {
     std::vector<std::shared_ptr<Watch>> disappointed;
     {
         const std::lock_guard lock(mutex_);
-        if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id()));
+        if (closed_) throw session_ended(id(), end_reason_);
         if (draining_) throw shutting_down();
         upload->run = run_of(upload->options);
         if (upload_ && upload->run != run_)
@@ -223,7 +223,7 @@ std::shared_ptr<Watch> Session::open_watch(const WatchOptions& options, std::fun
                                            const std::shared_ptr<const NameAccount>& watcher) {
     auto watch = std::make_shared<Watch>(options, std::move(wake), context_.shared.metrics, watcher);
     const std::lock_guard lock(mutex_);
-    if (closed_) throw Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id()));
+    if (closed_) throw session_ended(id(), end_reason_);
     if (draining_) throw shutting_down();
     if (!accepted_.can_show(options)) throw AcceptedFrames::needs_particles(id());
     if (!options.once) {
@@ -426,9 +426,8 @@ void Session::await_stream() {
 }
 
 void Session::close(std::string reason) {
+    const auto error = std::make_exception_ptr(session_ended(id(), reason));
     const Attached attached = detach(std::move(reason));
-    const auto error =
-        std::make_exception_ptr(Refusal(Refusal::Kind::not_found, fmt::format("session {} was deleted", id())));
     for (const auto& upload : attached.uploads) {
         upload->output.abort(error);
         upload->stop(error);

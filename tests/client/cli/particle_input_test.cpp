@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "cli/surfaces/particle_input.hpp"
 #include "formats/bytes/atomic_file.hpp"
 #include "sample_files.hpp"
+#include "sample_values.hpp"
 
 namespace meniscus::cli {
 namespace {
@@ -34,19 +34,13 @@ protected:
     const std::filesystem::path path_ = directory_ / "p.ply";
 };
 
-std::vector<float> floats(const ParticleArray& array) {
-    std::vector<float> out(array.data.size() / sizeof(float));
-    std::memcpy(out.data(), array.data.data(), array.data.size());
-    return out;
-}
-
 TEST_F(ParticleFile, BringsTheArraysThatTheSettingsNameAndNoOthers) {
     const ParticleInput input = read({"velocity", "id"});
     const ParticleFrame frame = input.frame();
     ASSERT_EQ(frame.arrays.size(), 2U);
     EXPECT_EQ(frame.arrays[0].name, "velocity");
     EXPECT_EQ(frame.arrays[0].components, 3U);
-    EXPECT_EQ(floats(frame.arrays[0]), (std::vector<float>{1, 2, 3, 4, 5, 6}));
+    EXPECT_EQ(test::numbers_of<float>(frame.arrays[0]), (std::vector<float>{1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(frame.arrays[1].type, ElementType::int32);
     EXPECT_TRUE(read({}).frame().arrays.empty());
     Settings all;
@@ -70,7 +64,7 @@ TEST_F(ParticleFile, LeavesOutTheArraysOfParticlesOutsideABoxToo) {
         const ParticleFrame frame = input.frame();
         EXPECT_EQ(frame.count(), 1U);
         ASSERT_EQ(frame.arrays.size(), 1U);
-        EXPECT_EQ(floats(frame.arrays[0]), (std::vector<float>{4, 5, 6}));
+        EXPECT_EQ(test::numbers_of<float>(frame.arrays[0]), (std::vector<float>{4, 5, 6}));
     }
 }
 

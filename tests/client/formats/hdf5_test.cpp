@@ -3,7 +3,6 @@
 
 #ifdef MENISCUS_HDF5
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 
@@ -11,6 +10,7 @@
 #include "hostile/hdf5_writing.hpp"
 #include "hostile/other_files.hpp"
 #include "sample_files.hpp"
+#include "sample_values.hpp"
 
 namespace meniscus::test {
 namespace {
@@ -45,9 +45,7 @@ TEST_F(Hdf5, PositionsInTheRootComeWithWhatElseHasARowForEach) {
         EXPECT_EQ(particles.arrays[0].name, "id");
         EXPECT_EQ(particles.arrays[0].type, ElementType::int32);
         EXPECT_EQ(particles.arrays[1].name, "velocity");
-        std::array<float, 6> velocity{};
-        std::memcpy(velocity.data(), particles.arrays[1].data.data(), sizeof velocity);
-        EXPECT_EQ(velocity, (std::array<float, 6>{7, 8, 9, 10, 11, 12}));
+        EXPECT_EQ(numbers_of<float>(particles.arrays[1]), (std::vector<float>{7, 8, 9, 10, 11, 12}));
     }
 }
 

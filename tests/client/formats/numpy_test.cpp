@@ -1,8 +1,6 @@
 // numpy's files: forms that arrays come in, zip files that lie.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "formats/bytes/byte_cursor.hpp"
 #include "formats/bytes/scalar.hpp"
 #include "formats/containers/npy.hpp"
@@ -10,6 +8,7 @@
 #include "formats/particles/particle_readers.hpp"
 #include "formats/particles/particles.hpp"
 #include "sample_files.hpp"
+#include "sample_values.hpp"
 
 namespace meniscus::test {
 namespace {
@@ -106,9 +105,7 @@ TEST(Npz, CoordinatesInArraysOfTheirOwnAreReadAsPySphNamesThem) {
     EXPECT_EQ(particles.positions, numpy_points);
     ASSERT_EQ(particles.arrays.size(), 2U);
     EXPECT_EQ(particles.arrays[0].name, "velocity");
-    std::array<float, 6> velocity{};
-    std::memcpy(velocity.data(), particles.arrays[0].data.data(), sizeof velocity);
-    EXPECT_EQ(velocity, (std::array<float, 6>{7, 8, 9, 10, 11, 12}));
+    EXPECT_EQ(numbers_of<float>(particles.arrays[0]), (std::vector<float>{7, 8, 9, 10, 11, 12}));
     EXPECT_EQ(particles.arrays[1].name, "rho");
 }
 

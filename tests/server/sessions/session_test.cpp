@@ -266,16 +266,27 @@ TEST_F(SessionPipeline, RefusesWatchersPastTheLimit) {
     EXPECT_NO_THROW(session.open_watch(normals(8), [] {}));
 }
 
-TEST_F(SessionPipeline, EndsUploadAndWatchersWhenClosed) {
+TEST_F(SessionPipeline, EndsUploadAndWatchersWhenClosedAndSaysWhy) {
+    const auto expect_refused = [&](const auto& call) {
+        try {
+            call();
+            ADD_FAILURE() << "it is taken";
+        } catch (const Refusal& refusal) {
+            EXPECT_EQ(refusal.kind(), Refusal::Kind::not_found);
+            EXPECT_EQ(refusal.what(), "session " + session.id() + " has ended: nobody has used it");
+        }
+    };
     Spectator watcher(session);
     Simulator simulator(session, {.receive_meshes = true, .normal_bits = 8});
-    session.close();
+    session.close("nobody has used it");
     simulator.receive_all();
-    EXPECT_THROW(std::rethrow_exception(simulator.error), Refusal);
+    expect_refused([&] { std::rethrow_exception(simulator.error); });
     EXPECT_TRUE(watcher.receive().empty());
     EXPECT_EQ(watcher.error, nullptr);
-    EXPECT_THROW(test::open_upload(session), Refusal);
-    EXPECT_THROW(session.open_watch(normals(8), [] {}), Refusal);
+    EXPECT_EQ(session.end_reason(), "nobody has used it");
+    session.close("another reason");
+    expect_refused([&] { test::open_upload(session); });
+    expect_refused([&] { session.open_watch(normals(8), [] {}); });
 }
 
 // Asserts by not hanging: join() returns.

@@ -68,9 +68,6 @@ public:
         without_lock([this] { source_.cancel(); });
     }
 
-    /// Of a Watcher's session.
-    std::string end_reason() const { return source_.end_reason(); }
-
 protected:
     Source source_;
 

@@ -3,6 +3,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+
 #include "meniscus/client/particle_watcher.hpp"
 #include "meniscus/client/watcher.hpp"
 #include "sessions/frame_source.hpp"
@@ -17,7 +19,13 @@ client::ParticleWatchOptions particle_watch_options(const text_options::Options&
                                                     const pybind11::object& on_reconnect);
 
 /// The class _meniscus.Watcher.
-using WatchSource = FrameSource<client::Watcher>;
+class WatchSource : public FrameSource<client::Watcher> {
+public:
+    using FrameSource::FrameSource;
+
+    /// Why the session ended; empty before.
+    std::string end_reason() const;
+};
 /// The class _meniscus.ParticleWatcher.
 using ParticleSource = FrameSource<client::ParticleWatcher>;
 

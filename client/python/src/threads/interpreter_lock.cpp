@@ -13,7 +13,7 @@ template <class Take>
 auto taken(const Take& take) {
     try {
         return take();
-    } catch (...) {  // a function of C throws nothing else; abi::__forced_unwind would be a reference to nothing
+    } catch (...) {  // the unwinding: Python's functions throw nothing, and a reference to abi::__forced_unwind is null
         for (;;) pause();
     }
 }

@@ -7,7 +7,7 @@ import type { WatchRequestInit } from '../rpc/server';
 import type { WatchResponse } from '../gen/meniscus/v1/surface_service_pb';
 import { Backoff, reconnecting, resting } from './backoff';
 import { FrameOrder } from './frame_order';
-import type { WatchState } from './watch_state';
+import type { SessionEnd, WatchState } from './watch_state';
 
 export type WatchOptions = Omit<WatchRequestInit, 'sessionId'>;
 
@@ -49,10 +49,8 @@ export class SessionWatch {
   private paused = false;
   /** Whether nothing is tried any more. */
   private over = false;
-  /** When the session ended, ms since 1970; its simulator may make it again. */
-  private endedAt: number | undefined;
-  /** In the server's words; "": unknown. */
-  private endReason = '';
+  /** The session's end, once it has ended; its simulator may make it again. */
+  private sessionEnd: SessionEnd | undefined;
   /** The kind of the last state that was reported. */
   private reported: WatchState['kind'] | undefined;
 
@@ -75,7 +73,7 @@ export class SessionWatch {
     }
     const call = new AbortController();
     this.call = call;
-    if (this.endedAt === undefined) this.report({ kind: 'connecting' });
+    if (this.sessionEnd === undefined) this.report({ kind: 'connecting' });
     void this.run(call.signal);
   }
 
@@ -108,17 +106,20 @@ export class SessionWatch {
   private async run(signal: AbortSignal): Promise<void> {
     const receiver = new FrameReceiver();
     const opened = (): void => {
-      if (!signal.aborted && (this.endedAt === undefined || this.reported !== 'ended'))
+      if (!signal.aborted && (this.sessionEnd === undefined || this.reported !== 'ended'))
         this.report({ kind: 'connected' });
     };
     try {
-      const ended = (reason: string): void => void (this.endReason = reason);
+      let reason = '';
+      const ended = (words: string): void => {
+        reason = words;
+      };
       for await (const { message, bytes } of this.server.watch(this.request(), signal, opened, ended)) {
         if (signal.aborted) return;
         this.take(receiver, message, bytes);
       }
       if (signal.aborted) return;
-      this.endedAt = Date.now();
+      this.sessionEnd = { at: Date.now(), reason };
       this.reportEnd();
       this.scheduleRetry();
     } catch (error) {
@@ -133,7 +134,7 @@ export class SessionWatch {
       return;
     }
     if (message.message.case === 'meshBegin' && !receiver.begun) {
-      this.endedAt = undefined;
+      this.sessionEnd = undefined;
       this.report({ kind: 'live' });
     }
     const frame = receiver.take(message, bytes, performance.now());
@@ -164,7 +165,7 @@ export class SessionWatch {
   /** When: on the page's clock, ms. */
   private scheduleRetry(): number {
     this.call = undefined;
-    const wait = (this.endedAt !== undefined ? this.longBackoff : this.backoff).next();
+    const wait = (this.sessionEnd !== undefined ? this.longBackoff : this.backoff).next();
     this.retry = setTimeout(() => {
       this.start();
     }, wait);
@@ -178,8 +179,8 @@ export class SessionWatch {
 
   /** Reports the end, unless that was the last report; false: the session has not ended. After a failed try the end is reported again. */
   private reportEnd(): boolean {
-    if (this.endedAt === undefined) return false;
-    if (this.reported !== 'ended') this.report({ kind: 'ended', at: this.endedAt, reason: this.endReason });
+    if (this.sessionEnd === undefined) return false;
+    if (this.reported !== 'ended') this.report({ kind: 'ended', ...this.sessionEnd });
     return true;
   }
 

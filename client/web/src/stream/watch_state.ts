@@ -1,5 +1,12 @@
 // Where a watch stands.
 
+export interface SessionEnd {
+  /** ms since 1970. */
+  readonly at: number;
+  /** The server's words, within a sentence; "": unknown. */
+  readonly reason: string;
+}
+
 export type WatchState =
   | { readonly kind: 'connecting' }
   /** Connected; no mesh has come on this call yet. */
@@ -14,7 +21,6 @@ export type WatchState =
   | { readonly kind: 'waiting'; readonly retryAt: number; readonly reason: string }
   /** There is no such session on the server, or none any more; it is looked for again at that time of the page's clock, ms. */
   | { readonly kind: 'absent'; readonly retryAt: number; readonly reason: string }
-  /** at: ms since 1970. reason: the server's words, within a sentence; "": unknown. */
-  | { readonly kind: 'ended'; readonly at: number; readonly reason: string }
+  | ({ readonly kind: 'ended' } & SessionEnd)
   | { readonly kind: 'token'; readonly reason: string }
   | { readonly kind: 'refused'; readonly reason: string };
