@@ -38,10 +38,18 @@ export function recordedFile() {
   return (recorded ??= record());
 }
 
-/** faster: times the rate above. loop: for ever. frames: number of the first ones to send. session: its name. */
-export async function startReplay(server, { faster = 1, loop = true, frames = frameCount, session } = {}) {
+/**
+ * faster: times the rate above. loop: for ever. frames: number of the first ones to send. session: its name.
+ * keep: leaves the session when all frames are sent.
+ */
+export async function startReplay(
+  server,
+  { faster = 1, loop = true, frames = frameCount, session, keep = false } = {},
+) {
   const { file, speed, triangles } = await recordedFile();
   const args = ['replay', file, '--speed', `${speed * faster}`, '--to', `${frames - 1}`];
-  const replay = startUploader(server, loop ? [...args, '--loop'] : args, session);
+  if (loop) args.push('--loop');
+  if (keep) args.push('--keep-session');
+  const replay = startUploader(server, args, session);
   return { ...replay, triangles };
 }
