@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <stdexcept>
 #include <thread>
 
 #include "free_port.hpp"
@@ -39,12 +40,15 @@ public:
             ::_exit(127);
         }
         const auto guard = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-        while (std::chrono::steady_clock::now() < guard) try {
+        bool ended = false;
+        while (std::chrono::steady_clock::now() < guard && !(ended = ::waitpid(pid_, nullptr, WNOHANG) != 0)) try {
                 const HttpClient probe(address);
                 return;
             } catch (const std::runtime_error&) {
                 std::this_thread::yield();
             }
+        if (!ended) ::kill(pid_, SIGKILL);
+        throw std::runtime_error("nginx does not listen at " + address);
     }
     ~Nginx() {
         ::kill(pid_, SIGTERM);
@@ -112,6 +116,19 @@ std::vector<std::string> native_frame(const std::string& address, const std::str
     return messages;
 }
 
+v1::FrameStatistics statistics_of(const std::vector<std::string>& messages) {
+    v1::WatchResponse response;
+    for (const std::string& message : messages)
+        if (response.ParseFromString(message) && response.has_frame_statistics()) return response.frame_statistics();
+    return {};
+}
+
+void expect_same(const std::vector<std::string>& frame, const std::vector<std::string>& native) {
+    EXPECT_EQ(frame.size(), native.size());
+    EXPECT_EQ(statistics_of(frame).DebugString(), statistics_of(native).DebugString());
+    EXPECT_TRUE(frame == native);
+}
+
 class AFrame : public testing::Test {
 protected:
     AFrame() {
@@ -141,10 +158,14 @@ TEST_F(AFrame, HasTheSameBytesByNativeGrpcByGrpcWebAndThroughNginx) {
     ASSERT_TRUE(keeps->Read(&first));
     const std::vector<std::string> native = native_frame(running.server.address(), id);
     ASSERT_GT(native.size(), 2U);
-    EXPECT_TRUE(web_frame(running.server.http_address(), id) == native);
+    {
+        SCOPED_TRACE("gRPC-Web");
+        expect_same(web_frame(running.server.http_address(), id), native);
+    }
     if (::access(program, X_OK) != 0) GTEST_SKIP() << program << " is not there: without the third";
     const Nginx nginx(running.server.http_address());
-    EXPECT_TRUE(web_frame(nginx.address, id) == native);
+    SCOPED_TRACE("nginx");
+    expect_same(web_frame(nginx.address, id), native);
 }
 
 TEST_F(AFrame, IsNotAllThatNginxPassesOn) {
