@@ -19,6 +19,7 @@
 #include "played_session.hpp"
 #include "process.hpp"
 #include "proxy.hpp"
+#include "slowness.hpp"
 
 namespace meniscus::server::test {
 namespace {
@@ -61,13 +62,6 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Behind, Strangers, testing::Values(ProxyKind::haproxy, ProxyKind::nginx),
                          [](const auto& kind) { return kind.param == ProxyKind::nginx ? "nginx" : "HAProxy"; });
-
-// How much more time a server takes that is watched.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr double slowness = 3.0;
-#else
-constexpr double slowness = 1.0;
-#endif
 
 TEST_P(Strangers, WhoResetTheirCallsCostTheServerNothing) {
     const double before = processor_seconds(server->pid());

@@ -13,12 +13,13 @@
 #include "meniscus/client/client.hpp"
 #include "meniscus/v1/surface_service.grpc.pb.h"
 #include "process.hpp"
+#include "slowness.hpp"
 #include "test_frames.hpp"
 
 namespace meniscus::server::test {
 namespace {
 
-constexpr double grace = 2.0;  // seconds
+constexpr double grace = 2.0 * slowness;  // seconds
 constexpr int sessions = 10;
 constexpr int watchers = 19;  // of a session; with its stream they are 20 calls
 
