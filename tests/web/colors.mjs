@@ -159,8 +159,9 @@ describe('colors', { skip: missing }, () => {
 
   it('that a session does not have are reported in the panel, and its own are offered', async () => {
     const server = await startServer();
-    const args = 'simulate --scene dam-break --particles 500 --frames 100000 --attribute age';
+    const args = 'simulate --scene dam-break --particles 500 --frames 10 --attribute age --keep-session';
     const simulator = startUploader(server, args.split(' '));
+    await simulator.finished();
     const page = await open(`${link(server, simulator.session)}&color=pressure`, small);
     await surface(page);
     await page.getByText('This session has no attribute "pressure".').waitFor();
