@@ -1,6 +1,7 @@
 #include "meniscus/client/errors.hpp"
 
-#include <string>
+#include <initializer_list>
+#include <utility>
 
 #include "bindings.hpp"
 #include "meniscus/error.hpp"
@@ -17,11 +18,19 @@ namespace py = pybind11;
 namespace meniscus::python {
 namespace {
 
-/// An error of meniscus/errors.py, made of its arguments.
-template <class... Arguments>
-void raise(const char* name, const std::exception& error, Arguments&&... further) {
+using Attributes = std::initializer_list<std::pair<const char*, py::object>>;
+
+/// An error of meniscus/errors.py. Runs nothing that is written in Python: there, at the end of the interpreter, a daemon
+/// thread that waits for the lock is unwound by Python, and no handler of C++ may meet that unwinding while it handles an
+/// exception, as translators do.
+void raise(const char* name, const std::exception& error, Attributes attributes = {}) {
     const py::object type = py::module_::import("meniscus.errors").attr(name);
-    const py::object raised = type(text_out(in_python_words(error.what())), std::forward<Arguments>(further)...);
+    const py::tuple arguments = py::make_tuple(text_out(in_python_words(error.what())));
+    const auto create = reinterpret_cast<PyTypeObject*>(type.ptr())->tp_new;
+    const auto raised = py::reinterpret_steal<py::object>(
+        create(reinterpret_cast<PyTypeObject*>(type.ptr()), arguments.ptr(), nullptr));
+    if (!raised) return;  // no memory, which is the error then
+    for (const auto& [attribute, value] : attributes) raised.attr(attribute) = value;
     PyErr_SetObject(type.ptr(), raised.ptr());
 }
 
@@ -33,9 +42,9 @@ void translate(std::exception_ptr thrown) {
     } catch (const LimitExceeded& error) {
         raise("LimitExceeded", error);
     } catch (const DeviceError& error) {
-        raise("DeviceError", error, error.device());
+        raise("DeviceError", error, {{"device", py::int_(error.device())}});
     } catch (const client::ServerError& error) {
-        raise("ServerError", error, name_of(error.code()), error.status());
+        raise("ServerError", error, {{"code", py::str(name_of(error.code()))}, {"status", py::str(error.status())}});
     } catch (const ForkedError& error) {
         raise("ForkedError", error);
     } catch (const NotBuilt& error) {

@@ -42,6 +42,35 @@ def test_a_program_that_ends_by_an_exception_says_that_alone(server):
     assert code == 1 and err.rstrip().endswith("ZeroDivisionError: division by zero")
 
 
+def test_a_program_ends_well_while_its_threads_have_errors(server):
+    # One makes its error for as long as it may: Python unwinds it where it waits for the interpreter's lock.
+    script = """
+        import sys, threading, time, meniscus
+
+        client = meniscus.Client(sys.argv[1])
+        is_made = threading.Event()
+
+        def make(self, *arguments):
+            is_made.set()
+            while True:
+                pass
+
+        def fail():
+            try:
+                client.session_info("00000000-0000-4000-8000-000000000000")
+            except meniscus.ServerError as error:
+                assert (error.code, error.status) == ("not_found", "NOT_FOUND")
+
+        sys.setswitchinterval(1e-4)
+        meniscus.ServerError.__init__ = make
+        failing = threading.Thread(target=fail, daemon=True)
+        failing.start()
+        while failing.is_alive() and not is_made.is_set():
+            time.sleep(0.01)
+    """
+    assert run_script(script, server.address) == (0, "", "")
+
+
 def test_importing_starts_no_thread():
     code, out, err = run_script("import os, meniscus; print(len(os.listdir('/proc/self/task')))")
     assert (code, out, err) == (0, "1\n", "")
