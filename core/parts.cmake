@@ -28,7 +28,8 @@ macro(replace_absent sources part absent)
 endmacro()
 
 if(NOT MENISCUS_STD_THREADS)
-  find_part(TBB TBB "the loops of the CPU run on std::thread (libtbb-dev)")
+  # Before 2021 a sort never returns whose comparison throws, as it does once a stop is asked for.
+  find_part(TBB TBB "the loops of the CPU run on std::thread (libtbb-dev, 2021 or newer)" 2021)
   if(NOT MENISCUS_WITH_TBB)
     set(MENISCUS_STD_THREADS ON)
   endif()
