@@ -44,7 +44,7 @@ void translate(std::exception_ptr thrown) {
     } catch (const DeviceError& error) {
         raise("DeviceError", error, {{"device", py::int_(error.device())}});
     } catch (const client::ServerError& error) {
-        raise("ServerError", error, {{"code", py::str(name_of(error.code()))}, {"status", py::str(error.status())}});
+        raise("ServerError", error, {{"code", text_out(name_of(error.code()))}, {"status", text_out(error.status())}});
     } catch (const ForkedError& error) {
         raise("ForkedError", error);
     } catch (const NotBuilt& error) {
