@@ -43,7 +43,7 @@ void take_part(client::ReceivedFrame& whole, client::ReceivedFrame part) {
 PartsSurfaces::PartsSurfaces(const Settings& settings, const BackendOptions& backend, std::size_t parts,
                              LocalCoding coding, bool as_bricks, Handler handler)
     : reconstructor_(settings, backend, {.parts = parts}, alone_),
-      coding_(std::move(coding)),
+      coding_(coding),
       as_bricks_(as_bricks),
       handler_(std::move(handler)) {
     if (as_bricks && coding_.attribute_bits != 0)

@@ -4,9 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <clocale>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <string_view>
@@ -51,8 +52,7 @@ std::vector<Number> numbers() {
     std::mt19937_64 random(1);
     for (int i = 0; i < 2000; ++i) {
         const auto bits = static_cast<Bits>(random());
-        Number value;
-        std::memcpy(&value, &bits, sizeof value);
+        const auto value = std::bit_cast<Number>(bits);
         if (std::isfinite(value)) all.push_back(value);
         all.push_back(static_cast<Number>(static_cast<int>(random() % 20001) - 10000) / 1000);
     }
@@ -105,7 +105,7 @@ TEST(NumberText, IsReadAsFarAsItIsANumber) {
         const auto found = by_locale::read_number(text.data(), last, value);
         EXPECT_EQ(found.ec, error) << text;
         EXPECT_EQ(found.ptr, end) << text;
-        EXPECT_EQ(std::memcmp(&value, &expected, sizeof value), 0) << text << ": " << value;
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(expected)) << text << ": " << value;
     }
 }
 

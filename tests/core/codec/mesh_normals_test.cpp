@@ -62,6 +62,7 @@ TEST(MeshNormals, OfASphereAreItsRadiiHoweverUnequalTheTriangles) {
     const auto steps = [&](int count, double whole) {
         std::vector<double> at;
         double sum = 0.0;
+        at.reserve(static_cast<std::size_t>(count));
         for (int i = 0; i < count; ++i) at.push_back(sum += wide(random));
         for (double& a : at) a *= whole / sum;
         return at;
