@@ -1,6 +1,5 @@
 #include <dlfcn.h>
 
-#include <cstdint>
 #include <string>
 
 #include "meniscus/error.hpp"
@@ -13,14 +12,16 @@ namespace {
 /// Fortran handle is the same, and both are passed in the same register.
 int ranks_of(int communicator) {
     using FromFortran = void* (*)(int);
-    using Size = int (*)(void*, int*);
+    using SizeOfPointer = int (*)(void*, int*);
+    using SizeOfInt = int (*)(int, int*);
     const auto from_fortran = reinterpret_cast<FromFortran>(::dlsym(RTLD_DEFAULT, "MPI_Comm_f2c"));
-    const auto size = reinterpret_cast<Size>(::dlsym(RTLD_DEFAULT, "MPI_Comm_size"));
+    void* const size = ::dlsym(RTLD_DEFAULT, "MPI_Comm_size");
     int ranks = 1;
-    if (size != nullptr)
-        size(from_fortran != nullptr ? from_fortran(communicator)
-                                     : reinterpret_cast<void*>(static_cast<std::intptr_t>(communicator)),
-             &ranks);
+    if (size == nullptr) return ranks;
+    if (from_fortran != nullptr)
+        reinterpret_cast<SizeOfPointer>(size)(from_fortran(communicator), &ranks);
+    else
+        reinterpret_cast<SizeOfInt>(size)(communicator, &ranks);
     return ranks;
 }
 

@@ -95,6 +95,7 @@ void put_together(std::vector<NamedValues>& arrays) {
             if (const auto place = member(*group->fourth)) found.push_back(*place);
         if (!can_be_attribute(arrays[i].type, found.size())) continue;
         std::vector<const NamedValues*> members;
+        members.reserve(found.size());
         for (const std::size_t place : found) members.push_back(&arrays[place]);
         NamedValues whole = interleaved(group->name, members);
         for (const std::size_t place : found) {

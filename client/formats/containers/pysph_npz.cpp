@@ -42,7 +42,8 @@ struct ArrayState {
 std::optional<ArrayState> array_state(const Pickle& pickle, const Value& value) {
     const Value* state = is_call_of(pickle, value, "_reconstruct") ? pickle.item(value, 2) : nullptr;
     if (state == nullptr || state->items.size() != 5) return std::nullopt;
-    return ArrayState{pickle.item(*state, 1), pickle.item(*state, 2), pickle.item(*state, 3), pickle.item(*state, 4)};
+    const auto part = [&](std::size_t i) { return &pickle[state->items[i]]; };
+    return ArrayState{part(1), part(2), part(3), part(4)};
 }
 
 NpyArray numpy_array(const ByteCursor& at, const Pickle& pickle, std::string_view name, const Value& value) {

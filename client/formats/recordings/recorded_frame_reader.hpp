@@ -59,7 +59,7 @@ private:
         if (message.frame_index() != frame_.index || message.particle_count() != frame_.particle_count)
             fail("its frame_begin tells of frame " + std::to_string(message.frame_index()) + " with " +
                  std::to_string(message.particle_count()) + " particles");
-        const conversion::ParticleLayout layout = this->layout(message);
+        conversion::ParticleLayout layout = this->layout(message);
         if (frame_.particle_count > frame_.bytes / layout.particle_bytes)
             fail(std::to_string(frame_.particle_count) + " particles of " + std::to_string(layout.particle_bytes) +
                  " bytes are announced, but only " + std::to_string(frame_.bytes) + " bytes follow");

@@ -195,7 +195,7 @@ private:
             if (!(corners >= 0.0 && corners <= static_cast<double>(left)))
                 in_.fail("cell " + std::to_string(i) + " of " + std::to_string(corners) + " corners, but " +
                          std::to_string(left) + " numbers follow");
-            for (double c = 0.0; c < corners; c += 1.0) {
+            for (auto c = static_cast<std::size_t>(std::ceil(corners)); c > 0; --c) {
                 corners_.push_back(to_index(value(type), out_.points.size(), in_));
                 --left;
             }

@@ -72,6 +72,7 @@ PushedFrame copy_frame(const StridedPositions& positions, std::span<const std::u
                        double simulation_time, BytePool& pool) {
     const std::vector<ParticleArray> chosen = chosen_arrays(arrays, positions.count(), named, index);
     std::vector<ArrayForm> forms;
+    forms.reserve(chosen.size());
     for (const ParticleArray& array : chosen) forms.push_back({std::string(array.name), array.type, array.components});
     ParticleBuffer buffer = ParticleBufferMemory::pooled(pool, positions.count(), levels.size(), forms);
     ParticleFrame given;

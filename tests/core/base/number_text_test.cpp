@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <clocale>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <random>
 #include <string_view>
@@ -16,6 +16,12 @@
 
 namespace meniscus {
 namespace {
+
+std::uint64_t bits_of(double value) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
 
 template <class Number>
 std::string shortest(Number value) {
@@ -52,7 +58,8 @@ std::vector<Number> numbers() {
     std::mt19937_64 random(1);
     for (int i = 0; i < 2000; ++i) {
         const auto bits = static_cast<Bits>(random());
-        const auto value = std::bit_cast<Number>(bits);
+        Number value;
+        std::memcpy(&value, &bits, sizeof value);
         if (std::isfinite(value)) all.push_back(value);
         all.push_back(static_cast<Number>(static_cast<int>(random() % 20001) - 10000) / 1000);
     }
@@ -105,7 +112,7 @@ TEST(NumberText, IsReadAsFarAsItIsANumber) {
         const auto found = by_locale::read_number(text.data(), last, value);
         EXPECT_EQ(found.ec, error) << text;
         EXPECT_EQ(found.ptr, end) << text;
-        EXPECT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(expected)) << text << ": " << value;
+        EXPECT_EQ(bits_of(value), bits_of(expected)) << text << ": " << value;
     }
 }
 
