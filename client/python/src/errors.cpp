@@ -20,9 +20,9 @@ namespace {
 
 using Attributes = std::initializer_list<std::pair<const char*, py::object>>;
 
-/// An error of meniscus/errors.py. Runs nothing that is written in Python: there, at the end of the interpreter, a daemon
-/// thread that waits for the lock is unwound by Python, and no handler of C++ may meet that unwinding while it handles an
-/// exception, as translators do.
+/// An error of meniscus/errors.py. Runs nothing that is written in Python: there, at the end of the interpreter, a
+/// daemon thread that waits for the lock is unwound by Python, and no handler of C++ may meet that unwinding while it
+/// handles an exception, as translators do.
 void raise(const char* name, const std::exception& error, Attributes attributes = {}) {
     const py::object type = py::module_::import("meniscus.errors").attr(name);
     const py::tuple arguments = py::make_tuple(text_out(in_python_words(error.what())));
