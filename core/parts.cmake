@@ -4,9 +4,9 @@
 # find_part(PART PACKAGE LOSS ARGUMENT...): by find_package(PACKAGE ARGUMENT...).
 macro(find_part part package loss)
   if(MENISCUS_SERVICE)
-    find_package(${package} REQUIRED ${ARGN})
+    find_package(${package} ${ARGN} REQUIRED)
   else()
-    find_package(${package} QUIET ${ARGN})
+    find_package(${package} ${ARGN} QUIET)
   endif()
   if(${package}_FOUND)
     set(MENISCUS_WITH_${part} ON)

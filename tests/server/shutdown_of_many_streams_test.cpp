@@ -147,7 +147,7 @@ TEST(ShutdownOfManyStreams, EndsWithinTheGracePeriodThoughHalfOfThemDoNotRead) {
     for (int i = 0; i < rounds; ++i) slowest = std::max(slowest, seconds_to_stop());
     std::printf("200 streams, %d times: stopped after %.3f s at most; the grace period is %.1f s\n", rounds, slowest,
                 grace);
-    EXPECT_LE(slowest, slowness * grace);
+    EXPECT_LE(slowest, grace + 0.2 * (slowness - 1.0)) << "a sanitizer lengthens what comes after the grace";
 }
 
 }  // namespace

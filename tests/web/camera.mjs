@@ -61,7 +61,8 @@ describe('the camera', { skip: missing }, () => {
   it('keeps spreading water in view until a person moves it', async () => {
     const server = await startServer();
     // However late the page opens, it sees the water before it has spread.
-    const first = await startReplay(server, { loop: false, frames: 2, keep: true });
+    const { file } = await recordedFile();
+    const first = startUploader(server, ['replay', file, '--speed', 'max', '--to', '1', '--keep-session']);
     await first.finished();
     const page = await open(link(server, first.session));
     await surface(page);

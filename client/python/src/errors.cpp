@@ -25,11 +25,7 @@ using Attributes = std::initializer_list<std::pair<const char*, py::object>>;
 /// handles an exception, as translators do.
 void raise(const char* name, const std::exception& error, Attributes attributes = {}) {
     const py::object type = py::module_::import("meniscus.errors").attr(name);
-    const py::tuple arguments = py::make_tuple(text_out(in_python_words(error.what())));
-    const auto create = reinterpret_cast<PyTypeObject*>(type.ptr())->tp_new;
-    const auto raised = py::reinterpret_steal<py::object>(
-        create(reinterpret_cast<PyTypeObject*>(type.ptr()), arguments.ptr(), nullptr));
-    if (!raised) return;  // no memory, which is the error then
+    const py::object raised = type.attr("__new__")(type, text_out(in_python_words(error.what())));
     for (const auto& [attribute, value] : attributes) raised.attr(attribute) = value;
     PyErr_SetObject(type.ptr(), raised.ptr());
 }

@@ -6,22 +6,16 @@
 
 #include <clocale>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <random>
 #include <string_view>
 
 #include "base/number_text_by_locale.hpp"
+#include "support/float_bits.hpp"
 
 namespace meniscus {
 namespace {
-
-std::uint64_t bits_of(double value) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
 
 template <class Number>
 std::string shortest(Number value) {
@@ -112,7 +106,7 @@ TEST(NumberText, IsReadAsFarAsItIsANumber) {
         const auto found = by_locale::read_number(text.data(), last, value);
         EXPECT_EQ(found.ec, error) << text;
         EXPECT_EQ(found.ptr, end) << text;
-        EXPECT_EQ(bits_of(value), bits_of(expected)) << text << ": " << value;
+        EXPECT_EQ(test::bits_of(value), test::bits_of(expected)) << text << ": " << value;
     }
 }
 

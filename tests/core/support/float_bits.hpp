@@ -1,4 +1,4 @@
-// A float32 and its bits; std::bit_cast() is not in gcc 10.
+// Numbers and their bits; std::bit_cast() is not in gcc 10.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,12 @@ inline float float_of(std::uint32_t bits) {
 
 inline std::uint32_t bits_of(float value) {
     std::uint32_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+inline std::uint64_t bits_of(double value) {
+    std::uint64_t bits;
     std::memcpy(&bits, &value, sizeof bits);
     return bits;
 }

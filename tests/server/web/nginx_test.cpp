@@ -40,26 +40,27 @@ public:
             ::_exit(127);
         }
         const auto guard = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-        bool ended = false;
-        while (std::chrono::steady_clock::now() < guard && !(ended = ::waitpid(pid_, nullptr, WNOHANG) != 0)) try {
+        while (std::chrono::steady_clock::now() < guard) try {
                 const HttpClient probe(address);
                 return;
             } catch (const std::runtime_error&) {
                 std::this_thread::yield();
             }
-        if (!ended) ::kill(pid_, SIGKILL);
+        stop();
         throw std::runtime_error("nginx does not listen at " + address);
     }
-    ~Nginx() {
-        ::kill(pid_, SIGTERM);
-        ::waitpid(pid_, nullptr, 0);
-    }
+    ~Nginx() { stop(); }
     Nginx(const Nginx&) = delete;
     Nginx& operator=(const Nginx&) = delete;
 
     const std::string address = "127.0.0.1:" + std::to_string(free_port());
 
 private:
+    void stop() const {
+        ::kill(pid_, SIGTERM);
+        ::waitpid(pid_, nullptr, 0);
+    }
+
     TestFolder folder_;
     pid_t pid_ = -1;
 };

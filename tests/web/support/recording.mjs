@@ -38,18 +38,10 @@ export function recordedFile() {
   return (recorded ??= record());
 }
 
-/**
- * faster: times the rate above. loop: for ever. frames: number of the first ones to send. session: its name.
- * keep: leaves the session when all frames are sent.
- */
-export async function startReplay(
-  server,
-  { faster = 1, loop = true, frames = frameCount, session, keep = false } = {},
-) {
+/** faster: times the rate above. loop: for ever. frames: number of the first ones to send. session: its name. */
+export async function startReplay(server, { faster = 1, loop = true, frames = frameCount, session } = {}) {
   const { file, speed, triangles } = await recordedFile();
   const args = ['replay', file, '--speed', `${speed * faster}`, '--to', `${frames - 1}`];
-  if (loop) args.push('--loop');
-  if (keep) args.push('--keep-session');
-  const replay = startUploader(server, args, session);
+  const replay = startUploader(server, loop ? [...args, '--loop'] : args, session);
   return { ...replay, triangles };
 }
