@@ -17,6 +17,7 @@ struct MadePart {
     std::uint64_t number = 0;  ///< of the part; a sum has none
     std::uint64_t particles = 0;
     std::uint64_t vertices = 0;
+    std::uint64_t own_vertices = 0;  ///< those that no part of a lesser number has
     std::array<std::uint64_t, triangle_level_count> triangles_by_level{};
     std::array<std::uint64_t, 3> base_cells_by_level{};
     std::uint64_t sixfold_volume = 0;
@@ -46,6 +47,7 @@ struct MadePart {
         };
         particles += o.particles;
         vertices += o.vertices;
+        own_vertices += o.own_vertices;
         add_all(triangles_by_level, o.triangles_by_level);
         add_all(base_cells_by_level, o.base_cells_by_level);
         sixfold_volume += o.sixfold_volume;
@@ -56,26 +58,5 @@ struct MadePart {
         greatest_sample = std::max(greatest_sample, o.greatest_sample);
     }
 };
-
-/// A vertex on the border of a part.
-struct BorderVertex {
-    LatticePosition place{};
-    std::uint64_t part = 0;  ///< its number
-    auto operator<=>(const BorderVertex&) const = default;
-};
-
-/// A mesh's vertices on the faces of a box of bricks: those that other parts may have, too.
-inline std::vector<LatticePosition> border_vertices(const Mesh& mesh, const BrickBox& box) {
-    std::vector<LatticePosition> on_border;
-    const auto brick_units = static_cast<std::int64_t>(brick_cells) << mesh.offset_bits;
-    for (const LatticePosition& v : mesh.vertices) {
-        bool is_on_border = false;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            is_on_border =
-                is_on_border || v[axis] == box.low[axis] * brick_units || v[axis] == box.high[axis] * brick_units;
-        if (is_on_border) on_border.push_back(v);
-    }
-    return on_border;
-}
 
 }  // namespace meniscus

@@ -80,6 +80,7 @@ private:
 class MessageReader {
 public:
     explicit MessageReader(std::span<const std::byte> bytes) : left_(bytes) {}
+    bool is_at_end() const { return left_.empty(); }
 
     template <class T>
     T get() {

@@ -15,7 +15,7 @@
 #include "particles/validation.hpp"
 #include "particles/warnings.hpp"
 #include "parts/agreement.hpp"
-#include "parts/compare_seams.hpp"
+#include "parts/contacts.hpp"
 #include "parts/frame_facts.hpp"
 #include "parts/made_part.hpp"
 #include "parts/part_particles.hpp"
@@ -87,6 +87,7 @@ public:
             own_ = deal_bricks(facts_.loads, options_.parts);
             overlaps_.assign(own_.size(), options_.overlap);
             told_ = {};
+            borders_.clear();
             report_ = {};
             error_ = nullptr;
             wanted_.resize(own_.size());
@@ -199,7 +200,8 @@ private:
         const FramePart its = part(number);
         const PartOutcome outcome = reconstructor_->reconstruct_part(particles, its, mesh_);
         const Statistics& statistics = reconstructor_->statistics();
-        told_.take(number, MadePart(number, particles.count(), statistics, outcome), outcome.seams, mesh_, its.own);
+        told_.take(number, MadePart(number, particles.count(), statistics, outcome), mesh_);
+        borders_.insert_or_assign(number, PartBorder(number, outcome.seams, mesh_, own_));
         report_.whole.peak_bytes = std::max(report_.whole.peak_bytes, statistics.peak_bytes);
         report_.whole.device_peak_bytes = std::max(report_.whole.device_peak_bytes, statistics.device_peak_bytes);
         report_.whole.backend = statistics.backend;
@@ -213,17 +215,21 @@ private:
 
     /// Of all parts: those whose seams differ are wanted again. Returns what each process tells, PartsTold.
     std::vector<PartExchange::Bytes> compare() {
-        std::vector<PartExchange::Bytes> told = agreement_.gather([&] {
+        agreement_.all_to_all(to_touching_, from_touching_, [&] {
             rethrow_error();
+            to_touching_.resize(agreement_.ranks());
+            write_contacts(borders_, [this](std::uint64_t part) { return rank_of(part); }, to_touching_);
+        });
+        std::vector<PartExchange::Bytes> told = agreement_.gather([&] {
+            told_.take(compare_contacts(borders_, from_touching_));
             return told_.packed();
         });
         agreement_.agree([&] {
-            std::vector<PartSeam> seams;
-            for (const PartExchange::Bytes& message : told) PartsTold::add_seams(message, seams);
+            PartsTold all;
+            for (const PartExchange::Bytes& message : told) all.add_unequal(message);
             report_.parts_made += wanted_.size();
-            UnequalSeams unequal = compare_seams(seams, own_);
-            report_.unequal_seams += unequal.count;
-            wanted_ = std::move(unequal.parts);
+            report_.unequal_seams += all.unequal_seams;
+            wanted_.assign(all.unequal_parts.begin(), all.unequal_parts.end());
             for (const std::size_t part : wanted_) {
                 // Such a part has settled the whole frame.
                 if (overlaps_[part] == max_overlap)
@@ -279,6 +285,8 @@ private:
     std::optional<Warning> wrong_radius_;
     PartsReport report_;  ///< without what is summed up of the parts
     PartsTold told_;      ///< by this process
+    Borders borders_;     ///< of its parts
+    std::vector<PartExchange::Bytes> to_touching_, from_touching_;  ///< of these, to the parts beyond
     // Of the round:
     std::vector<std::size_t> wanted_;  ///< the parts to make, in all processes
     std::vector<std::vector<std::size_t>> of_rank_;

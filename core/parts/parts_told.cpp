@@ -4,44 +4,49 @@
 #include <cstddef>
 #include <span>
 
-#include "parts/message.hpp"
 
 namespace meniscus {
 
-void PartsTold::take(std::uint64_t part, const MadePart& figures, const std::vector<Seam>& its_seams, const Mesh& mesh,
-                     const BrickBox& own) {
-    std::erase_if(seams, [part](const PartSeam& seam) { return seam.part == part; });
+void PartsTold::take(std::uint64_t part, const MadePart& figures, const Mesh& mesh) {
     std::erase_if(made, [part](const MadePart& other) { return other.number == part; });
-    std::erase_if(border, [part](const BorderVertex& vertex) { return vertex.part == part; });
     std::erase_if(ranges, [part](const PartRange& range) { return range.part == part; });
-    for (const Seam& seam : its_seams) seams.push_back({seam, part});
     made.push_back(figures);
-    for (const LatticePosition& place : border_vertices(mesh, own)) border.push_back({place, part});
     std::uint64_t attribute = 0;
     for (const AttributeRange& range : attribute_ranges(mesh)) ranges.push_back({part, attribute++, range});
 }
 
+void PartsTold::take(const ComparedContacts& compared) {
+    unequal_seams = compared.unequal_seams;
+    unequal_parts = compared.unequal_parts;
+    for (MadePart& part : made) part.own_vertices = part.vertices - compared.repeated.at(part.number);
+}
+
 PartExchange::Bytes PartsTold::packed() const {
     MessageWriter message;
-    const auto bytes = [](const auto& values) { return sizeof(std::uint64_t) + values.size() * sizeof values[0]; };
-    message.reserve(bytes(seams) + bytes(made) + bytes(border) + bytes(ranges) + 1);  // one that Agreement adds
-    message.add_all(std::span<const PartSeam>(seams));
+    message.add(unequal_seams);
+    message.add_all(std::span<const std::uint64_t>(unequal_parts));
     message.add_all(std::span<const MadePart>(made));
-    message.add_all(std::span<const BorderVertex>(border));
     message.add_all(std::span<const PartRange>(ranges));
     return message.take();
 }
 
-void PartsTold::add(const PartExchange::Bytes& message) {
-    MessageReader reader(message);
-    reader.append_to(seams);
-    reader.append_to(made);
-    reader.append_to(border);
-    reader.append_to(ranges);
+void PartsTold::add(const PartExchange::Bytes& bytes) {
+    MessageReader message(bytes);
+    add_unequal(message);
+    message.append_to(made);
+    message.append_to(ranges);
 }
 
-void PartsTold::add_seams(const PartExchange::Bytes& message, std::vector<PartSeam>& seams) {
-    MessageReader(message).append_to(seams);
+void PartsTold::add_unequal(const PartExchange::Bytes& bytes) {
+    MessageReader message(bytes);
+    add_unequal(message);
+}
+
+void PartsTold::add_unequal(MessageReader& message) {
+    unequal_seams += message.get<std::uint64_t>();
+    message.append_to(unequal_parts);
+    std::sort(unequal_parts.begin(), unequal_parts.end());
+    unequal_parts.erase(std::unique(unequal_parts.begin(), unequal_parts.end()), unequal_parts.end());
 }
 
 MadePart PartsTold::sum() const {
@@ -52,11 +57,7 @@ MadePart PartsTold::sum() const {
 
 std::vector<std::uint64_t> PartsTold::own_vertices() const {
     std::vector<std::uint64_t> own(made.size());
-    for (const MadePart& part : made) own[part.number] = part.vertices;
-    std::vector<BorderVertex> all = border;
-    std::sort(all.begin(), all.end());
-    for (std::size_t i = 1; i < all.size(); ++i)
-        if (all[i].place == all[i - 1].place) --own[all[i].part];
+    for (const MadePart& part : made) own[part.number] = part.own_vertices;
     return own;
 }
 

@@ -6,8 +6,9 @@
 
 #include "meniscus/attribute_coding.hpp"
 #include "meniscus/parts.hpp"
-#include "parts/compare_seams.hpp"
+#include "parts/contacts.hpp"
 #include "parts/made_part.hpp"
+#include "parts/message.hpp"
 
 namespace meniscus {
 
@@ -19,25 +20,29 @@ struct PartRange {
 };
 
 struct PartsTold {
-    std::vector<PartSeam> seams;
+    std::uint64_t unequal_seams = 0;
+    std::vector<std::uint64_t> unequal_parts;  ///< those on both sides of these, ascending, each once
     std::vector<MadePart> made;
-    std::vector<BorderVertex> border;
     std::vector<PartRange> ranges;
 
     /// A part that has been made once more takes the place of what it was.
-    void take(std::uint64_t part, const MadePart& figures, const std::vector<Seam>& its_seams, const Mesh& mesh,
-              const BrickBox& own);
+    void take(std::uint64_t part, const MadePart& figures, const Mesh& mesh);
+    /// Of the parts that were taken.
+    void take(const ComparedContacts& compared);
     PartExchange::Bytes packed() const;
     /// Takes what a process tells, packed.
     void add(const PartExchange::Bytes& message);
-    /// Takes the seams of it alone.
-    static void add_seams(const PartExchange::Bytes& message, std::vector<PartSeam>& seams);
+    /// Takes of it the seams that differ alone.
+    void add_unequal(const PartExchange::Bytes& message);
 
     MadePart sum() const;
     /// Of each part, the vertices that no part before it has.
     std::vector<std::uint64_t> own_vertices() const;
     /// Of each attribute over all vertices; none without vertices.
     std::vector<AttributeRange> whole_ranges() const;
+
+private:
+    void add_unequal(MessageReader& message);
 };
 
 }  // namespace meniscus

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "particles/seams.hpp"
-#include "parts/compare_seams.hpp"
+#include "parts/contacts.hpp"
 #include "steps/part_borders/part_borders.hpp"
 #include "support/parts.hpp"
 
@@ -12,17 +12,26 @@ namespace {
 const std::vector<BrickBox> halves{{all_bricks.low, {0, brick_end, brick_end}},
                                    {{0, -brick_end, -brick_end}, all_bricks.high}};
 
-std::vector<PartSeam> seams_of_halves(const Settings& settings, const ParticleFrame& frame, std::uint32_t overlap) {
-    std::vector<PartSeam> seams;
+/// The borders of both halves, which are made by themselves.
+Borders borders_of_halves(const Settings& settings, const ParticleFrame& frame, std::uint32_t overlap) {
+    Borders borders;
     for (std::size_t i = 0; i < halves.size(); ++i) {
         Reconstructor reconstructor(settings, {Backend::cpu, 1, 0});
         Mesh mesh;
         FramePart part;
         part.own = halves[i];
         part.overlap = overlap;
-        for (const Seam& seam : reconstructor.reconstruct_part(frame, part, mesh).seams) seams.push_back({seam, i});
+        const PartOutcome outcome = reconstructor.reconstruct_part(frame, part, mesh);
+        borders.insert_or_assign(i, PartBorder(i, outcome.seams, mesh, halves));
     }
-    return seams;
+    return borders;
+}
+
+/// As one process that makes both.
+ComparedContacts compared(const Borders& borders) {
+    std::vector<PartExchange::Bytes> messages(1);
+    write_contacts(borders, [](std::uint64_t) { return std::size_t{0}; }, messages);
+    return compare_contacts(borders, messages);
 }
 
 test::Particles water_around_the_origin(unsigned seed) {
@@ -33,30 +42,45 @@ test::Particles water_around_the_origin(unsigned seed) {
 
 TEST(Seams, AreEqualWhereBothPartsHaveSettledAlike) {
     const test::Particles particles = water_around_the_origin(3);
-    const auto seams = seams_of_halves(test::default_settings(), particles.frame(), 32);
-    ASSERT_GT(seams.size(), 8U);
-    EXPECT_EQ(compare_seams(seams, halves).count, 0U);
+    const Borders borders = borders_of_halves(test::default_settings(), particles.frame(), 32);
+    const std::vector<Seam>& seams = borders.at(0).touches.at(1).seams;
+    ASSERT_GT(seams.size(), 4U);
+    EXPECT_EQ(seams, borders.at(1).touches.at(0).seams);
+    EXPECT_EQ(compared(borders).unequal_seams, 0U);
     // Along the cut, diagonal neighbors too.
-    for (const PartSeam& seam : seams) EXPECT_EQ(std::abs(seam.seam.first[0] - seam.seam.second[0]), 1);
+    for (const Seam& seam : seams) EXPECT_EQ(std::abs(seam.first[0] - seam.second[0]), 1);
 }
 
 TEST(Seams, DifferForAFlippedBitOfAHash) {
     const test::Particles particles = water_around_the_origin(4);
-    const auto seams = seams_of_halves(test::default_settings(), particles.frame(), 32);
-    for (std::size_t i = 0; i < seams.size(); i += 3) {
-        auto damaged = seams;
-        damaged[i].seam.hash[i % 2] ^= std::uint64_t{1} << (i % 64);
-        const UnequalSeams unequal = compare_seams(damaged, halves);
-        EXPECT_EQ(unequal.count, 1U);
-        EXPECT_EQ(unequal.parts, (std::vector<std::size_t>{0, 1}));
+    Borders borders = borders_of_halves(test::default_settings(), particles.frame(), 32);
+    for (const std::size_t half : {0U, 1U}) {
+        std::vector<Seam>& seams = borders.at(half).touches.at(1 - half).seams;
+        for (std::size_t i = 0; i < seams.size(); ++i) {
+            const std::uint64_t bit = std::uint64_t{1} << (i % 64);
+            seams[i].hash[i % 2] ^= bit;
+            const ComparedContacts found = compared(borders);
+            EXPECT_EQ(found.unequal_seams, 1U);
+            EXPECT_EQ(found.unequal_parts, (std::vector<std::uint64_t>{0, 1}));
+            seams[i].hash[i % 2] ^= bit;
+        }
     }
 }
 
 TEST(Seams, DifferWhereOnePartHasNone) {
     const test::Particles particles = water_around_the_origin(5);
-    auto seams = seams_of_halves(test::default_settings(), particles.frame(), 32);
-    seams.erase(seams.begin() + 1);
-    EXPECT_EQ(compare_seams(seams, halves).count, 1U);
+    const Borders borders = borders_of_halves(test::default_settings(), particles.frame(), 32);
+    for (const std::size_t half : {0U, 1U}) {
+        const std::size_t seams = borders.at(half).touches.at(1 - half).seams.size();
+        for (std::size_t i = 0; i < seams; ++i) {
+            Borders less = borders;
+            std::vector<Seam>& its = less.at(half).touches.at(1 - half).seams;
+            its.erase(its.begin() + static_cast<std::ptrdiff_t>(i));
+            EXPECT_EQ(compared(less).unequal_seams, 1U) << half << " " << i;
+            its.clear();
+            EXPECT_EQ(compared(less).unequal_seams, seams);
+        }
+    }
 }
 
 /// 2 x 2 x 2 bricks that store all their cells, of which the first is a part.
