@@ -1,5 +1,6 @@
 #include "meniscus/strided_positions.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -23,23 +24,44 @@ std::size_t particles_in(std::size_t numbers) {
     return numbers / 3;
 }
 
-void check(const void* first, std::size_t count, std::size_t stride, std::size_t least_stride) {
-    if (first == nullptr && count != 0)
+/// least: numbers that lie next to each other.
+void check(bool has_memory, std::size_t count, std::size_t stride, std::size_t number, std::size_t least) {
+    if (!has_memory && count != 0)
         throw InvalidInput("the frame has " + std::to_string(count) + " particles, but no memory with their positions");
-    if (stride < least_stride)
+    if (stride < least * number)
         throw InvalidInput("the stride is " + std::to_string(stride) + " bytes, must be at least " +
-                           std::to_string(least_stride) + ": three numbers of " + std::to_string(least_stride / 3) +
-                           " bytes");
+                           std::to_string(least * number) + ": " + (least == 1 ? "one number" : "three numbers") +
+                           " of " + std::to_string(number) + " bytes");
     if (count > std::numeric_limits<std::size_t>::max() / stride)
         throw InvalidInput(std::to_string(count) + " particles with a stride of " + std::to_string(stride) +
                            " bytes are more than memory can hold");
 }
 
+using Places = std::array<const std::byte*, 3>;
+
+/// Of x y z that lie next to each other.
 template <class Number>
-std::array<Number, 3> numbers_at(const std::byte* place) {
-    std::array<Number, 3> position;
-    std::memcpy(position.data(), place, sizeof position);
-    return position;
+Places places_from(const Number* first) {
+    const auto* const x = reinterpret_cast<const std::byte*>(first);
+    if (x == nullptr) return {};
+    return {x, x + sizeof(Number), x + 2 * sizeof(Number)};
+}
+template <class Number>
+Places places_of(const std::array<const Number*, 3>& first) {
+    Places places;
+    for (std::size_t axis = 0; axis < 3; ++axis) places[axis] = reinterpret_cast<const std::byte*>(first[axis]);
+    return places;
+}
+
+bool all_set(const Places& places) {
+    return places[0] != nullptr && places[1] != nullptr && places[2] != nullptr;
+}
+
+template <class Number>
+Number number_at(const std::byte* place) {
+    Number number;
+    std::memcpy(&number, place, sizeof number);
+    return number;
 }
 
 [[noreturn]] void refuse(std::size_t particle, std::size_t axis, double value) {
@@ -55,45 +77,69 @@ std::array<Number, 3> numbers_at(const std::byte* place) {
     throw InvalidInput(what.str());
 }
 
-/// Converts numbers that lie next to each other. Returns whether float32 holds all of them. Without a branch, for
-/// vectors of them.
-template <class Number, std::size_t count>
-bool copy_row(const std::byte* row, std::span<float, count> out) {
+/// Writes every third number from `out` on. Returns whether float32 holds all of them. Without a branch, for vectors of
+/// them.
+template <class Number>
+bool copy_axis(const std::byte* first, std::size_t stride, std::size_t count, float* out) {
+    unsigned misfits = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto value = static_cast<float>(number_at<Number>(first + i * stride));
+        out[3 * i] = value;
+        misfits |= static_cast<unsigned>(!is_position(value));
+    }
+    return misfits == 0;
+}
+
+/// As many as `out` has, that lie next to each other.
+template <class Number>
+bool copy_row(const std::byte* row, std::span<float> out) {
     unsigned misfits = 0;
     for (std::size_t i = 0; i < out.size(); ++i) {
-        Number number;
-        std::memcpy(&number, row + i * sizeof number, sizeof number);
-        out[i] = static_cast<float>(number);
+        out[i] = static_cast<float>(number_at<Number>(row + i * sizeof(Number)));
         misfits |= static_cast<unsigned>(!is_position(out[i]));
     }
     return misfits == 0;
 }
 
+/// Particles whose axes are copied one after the other: what is read and written of them stays in the nearest cache.
+constexpr std::size_t block = 512;
+
 template <class Number>
-void copy_numbers(const std::byte* first, std::size_t stride, std::span<float> positions) {
+void copy_numbers(const Places& first, std::size_t stride, std::span<float> positions) {
+    const std::size_t count = positions.size() / 3;
     bool all_fit = true;
-    if (stride == 3 * sizeof(Number))
-        all_fit = copy_row<Number>(first, positions);
+    if (stride == 3 * sizeof(Number) && first == places_from(reinterpret_cast<const Number*>(first[0])))
+        all_fit = copy_row<Number>(first[0], positions);
     else
-        for (std::size_t i = 0; i < positions.size() / 3; ++i)
-            all_fit &= copy_row<Number>(first + i * stride, positions.subspan(3 * i).first<3>());
+        for (std::size_t i = 0; i < count; i += block)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                all_fit &= copy_axis<Number>(first[axis] + i * stride, stride, std::min(block, count - i),
+                                             positions.data() + 3 * i + axis);
     if (all_fit) return;
-    for (std::size_t i = 0; i < positions.size() / 3; ++i) {
-        const std::array<Number, 3> position = numbers_at<Number>(first + i * stride);
+    for (std::size_t i = 0; i < count; ++i)
         for (std::size_t axis = 0; axis < 3; ++axis)
-            if (!is_position(static_cast<float>(position[axis]))) refuse(i, axis, position[axis]);
-    }
+            if (const auto number = number_at<Number>(first[axis] + i * stride);
+                !is_position(static_cast<float>(number)))
+                refuse(i, axis, number);
 }
 
 }  // namespace
 
 StridedPositions::StridedPositions(const float* first, std::size_t count, std::size_t stride)
-    : first_(reinterpret_cast<const std::byte*>(first)), count_(count), stride_(stride), is_float64_(false) {
-    check(first, count, stride, 3 * sizeof(float));
+    : first_(places_from(first)), count_(count), stride_(stride), is_float64_(false) {
+    check(first != nullptr, count, stride, sizeof(float), 3);
 }
 StridedPositions::StridedPositions(const double* first, std::size_t count, std::size_t stride)
-    : first_(reinterpret_cast<const std::byte*>(first)), count_(count), stride_(stride), is_float64_(true) {
-    check(first, count, stride, 3 * sizeof(double));
+    : first_(places_from(first)), count_(count), stride_(stride), is_float64_(true) {
+    check(first != nullptr, count, stride, sizeof(double), 3);
+}
+StridedPositions::StridedPositions(const std::array<const float*, 3>& first, std::size_t count, std::size_t stride)
+    : first_(places_of(first)), count_(count), stride_(stride), is_float64_(false) {
+    check(all_set(first_), count, stride, sizeof(float), 1);
+}
+StridedPositions::StridedPositions(const std::array<const double*, 3>& first, std::size_t count, std::size_t stride)
+    : first_(places_of(first)), count_(count), stride_(stride), is_float64_(true) {
+    check(all_set(first_), count, stride, sizeof(double), 1);
 }
 StridedPositions::StridedPositions(std::span<const float> numbers)
     : StridedPositions(numbers.data(), particles_in(numbers.size())) {}

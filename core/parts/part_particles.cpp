@@ -27,13 +27,28 @@ void PartParticles::begin(FrameForm form) {
     for (std::vector<std::byte>& array : arrays_) array.clear();
 }
 
-void PartParticles::assign(const ParticleFrame& frame) {
-    begin(FrameForm(frame));
-    positions_.assign(frame.positions.begin(), frame.positions.end());
-    quantized_.assign(frame.quantized.begin(), frame.quantized.end());
-    levels_.assign(frame.levels.begin(), frame.levels.end());
-    for (std::size_t a = 0; a < arrays_.size(); ++a)
-        arrays_[a].assign(frame.arrays[a].data.begin(), frame.arrays[a].data.end());
+ParticleFrame PartParticles::keep(const HandedFrame& handed) {
+    const ParticleFrame& given = handed.frame;
+    begin(FrameForm(given));
+    if (!handed.positions_stay) {
+        positions_.assign(given.positions.begin(), given.positions.end());
+        quantized_.assign(given.quantized.begin(), given.quantized.end());
+    }
+    if (!handed.rest_stays) {
+        levels_.assign(given.levels.begin(), given.levels.end());
+        for (std::size_t a = 0; a < arrays_.size(); ++a)
+            arrays_[a].assign(given.arrays[a].data.begin(), given.arrays[a].data.end());
+    }
+    ParticleFrame kept = frame();
+    if (handed.positions_stay) {
+        kept.positions = given.positions;
+        kept.quantized = given.quantized;
+    }
+    if (handed.rest_stays) {
+        kept.levels = given.levels;
+        for (std::size_t a = 0; a < borrowed_.size(); ++a) borrowed_[a].data = given.arrays[a].data;
+    }
+    return kept;
 }
 
 void PartParticles::add(std::span<const std::byte> message) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "meniscus/particle_frame.hpp"
+#include "meniscus/parts.hpp"
 #include "meniscus/settings.hpp"
 
 namespace meniscus {
@@ -39,8 +40,8 @@ public:
     void begin(FrameForm form);
     /// A message of ParticlesNear, of a frame of this form.
     void add(std::span<const std::byte> message);
-    /// A copy of the frame.
-    void assign(const ParticleFrame& frame);
+    /// The frame, of what stays and of copies of the rest: lives as long as both.
+    ParticleFrame keep(const HandedFrame& handed);
     /// Lives as long as this.
     const ParticleFrame& frame();
 

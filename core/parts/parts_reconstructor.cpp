@@ -58,24 +58,19 @@ public:
             reconstructor_.emplace(settings, backend);
     }
 
-    enum class Particles { borrowed, copied };
+    enum class Making { at_once, beside_a_simulation };
 
-    /// What is given stays until the frame is over where it is borrowed.
-    void begin(const FrameGiver& give, Particles particles) {
+    void begin(const FrameGiver& give, Making making) {
         start_ = std::chrono::steady_clock::now();
-        given_ = particles;
+        making_ = making;
         const auto of_ranks = agreement_.gather([&] {
-            const ParticleFrame given = give();
+            HandedFrame handed = give();
             // As a Reconstructor does, which passes over arrays that the frames before did not bring.
-            validate_lengths(given);
-            arrays_ = choice_.of(given);
-            mine_ = given;
-            mine_.sent = nullptr;
-            mine_.arrays = arrays_;
-            if (particles == Particles::copied) {
-                copy_.assign(mine_);
-                mine_ = copy_.frame();
-            }
+            validate_lengths(handed.frame);
+            const std::vector<ParticleArray> chosen = choice_.of(handed.frame);
+            handed.frame.sent = nullptr;
+            handed.frame.arrays = chosen;
+            mine_ = kept_.keep(handed);
             validate_places(mine_, settings_);
             near_.begin(mine_);
             return packed(facts_of(mine_));
@@ -107,7 +102,7 @@ public:
                 particles_.add(bytes);
                 // The frames of a simulation follow each other in the same memory: new pages cost more than copies.
                 // (`bytes = {}` would keep the memory.)
-                if (given_ == Particles::borrowed) PartExchange::Bytes().swap(bytes);
+                if (making_ == Making::at_once) PartExchange::Bytes().swap(bytes);
             }
             make_one(mine_to_make_[turn_], particles_.frame(), sink);
         } catch (...) {
@@ -156,7 +151,7 @@ private:
         facts.form = FrameForm(mine);
         facts.by_level = count_levels(mine);
         // One frame may have parts by the hundred, and the largest decides how much memory it takes: all count there.
-        const std::size_t group = given_ == Particles::borrowed ? 1 : mine.count() / particles_for_deal;
+        const std::size_t group = making_ == Making::at_once ? 1 : mine.count() / particles_for_deal;
         facts.loads = brick_loads(mine, settings_, std::max<std::size_t>(group, 1));
         facts.ranges = array_ranges(mine, settings_);
         return facts;
@@ -191,7 +186,7 @@ private:
                     to_[rank].clear();
             }
         });
-        if (given_ == Particles::borrowed) to_.clear();
+        if (making_ == Making::at_once) to_.clear();
     }
 
     FramePart part(std::size_t number) const { return {own_[number], overlaps_[number], facts_.ranges}; }
@@ -274,10 +269,9 @@ private:
 
     // Of the frame that has begun:
     std::chrono::steady_clock::time_point start_;
-    PartParticles copy_;
-    std::vector<ParticleArray> arrays_;
-    ParticleFrame mine_;  ///< borrows from the caller, or from the copy
-    Particles given_ = Particles::borrowed;
+    PartParticles kept_;
+    ParticleFrame mine_;  ///< borrows from the caller, and from what is kept
+    Making making_ = Making::at_once;
     ParticlesNear near_;
     FrameFacts facts_;
     std::vector<BrickBox> own_;
@@ -309,14 +303,14 @@ PartsReconstructor::PartsReconstructor(const Settings& settings, const BackendOp
 PartsReconstructor::~PartsReconstructor() = default;
 
 PartsReport PartsReconstructor::reconstruct(const ParticleFrame& mine, const PartSink& sink) {
-    impl_->begin([&mine] { return mine; }, Impl::Particles::borrowed);
+    impl_->begin([&mine] { return HandedFrame(mine, true, true); }, Impl::Making::at_once);
     do make(sink);
     while (go_on());
     return report();
 }
 
 void PartsReconstructor::begin(const FrameGiver& mine) {
-    impl_->begin(mine, Impl::Particles::copied);
+    impl_->begin(mine, Impl::Making::beside_a_simulation);
 }
 
 void PartsReconstructor::make(const PartSink& sink) noexcept {

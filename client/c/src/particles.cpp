@@ -1,5 +1,6 @@
 #include "particles.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <limits>
@@ -12,16 +13,27 @@
 namespace meniscus::c {
 namespace {
 
+template <class Number>
+bool has_axes(const Number* const (&axes)[3]) {
+    return axes[0] != nullptr || axes[1] != nullptr || axes[2] != nullptr;
+}
+
 /// The struct itself, once it makes sense.
 meniscus_particles checked(const meniscus_particles* particles) {
     const meniscus_particles given = read_struct(particles, "particles");
     constexpr std::size_t most = std::numeric_limits<std::ptrdiff_t>::max() / (3 * sizeof(double));
     if (given.count > most)
         throw InvalidInput("particles->count is " + std::to_string(given.count) + ", more than memory can hold");
-    if (given.count != 0 && (given.positions == nullptr) == (given.positions_double == nullptr))
-        throw InvalidInput(std::string("particles->positions and particles->positions_double are ") +
-                           (given.positions == nullptr ? "both NULL" : "both set") + ", must be one of them, for " +
-                           std::to_string(given.count) + " particles");
+    std::vector<std::string> set;
+    if (given.positions != nullptr) set.emplace_back("positions");
+    if (given.positions_double != nullptr) set.emplace_back("positions_double");
+    if (has_axes(given.axes)) set.emplace_back("axes");
+    if (has_axes(given.axes_double)) set.emplace_back("axes_double");
+    if (given.count != 0 && set.size() != 1)
+        throw InvalidInput(
+            (set.empty() ? std::string("particles->positions, positions_double, axes and axes_double are all NULL")
+                         : "particles->" + set[0] + " and " + set[1] + " are both set") +
+            ", must be one of them, for " + std::to_string(given.count) + " particles");
     return given;
 }
 
@@ -29,9 +41,22 @@ template <class Number>
 StridedPositions strided(const Number* first, const meniscus_particles& given) {
     return {first, given.count, given.stride == 0 ? 3 * sizeof(Number) : given.stride};
 }
+template <class Number>
+StridedPositions strided(const Number* const (&axes)[3], const char* member, const meniscus_particles& given) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (axes[axis] == nullptr)
+            throw InvalidInput("particles->" + std::string(member) + "[" + std::to_string(axis) +
+                               "] is NULL, must point to the " + "xyz"[axis] + " of " + std::to_string(given.count) +
+                               " particles");
+    return {std::array{axes[0], axes[1], axes[2]}, given.count, given.stride == 0 ? sizeof(Number) : given.stride};
+}
 
 StridedPositions positions_of(const meniscus_particles& given) {
-    return given.positions_double != nullptr ? strided(given.positions_double, given) : strided(given.positions, given);
+    if (given.count == 0) return {std::span<const float>()};
+    if (given.positions_double != nullptr) return strided(given.positions_double, given);
+    if (has_axes(given.axes)) return strided(given.axes, "axes", given);
+    if (has_axes(given.axes_double)) return strided(given.axes_double, "axes_double", given);
+    return strided(given.positions, given);
 }
 
 std::span<const std::uint8_t> levels_of(const meniscus_particles& given) {
@@ -98,11 +123,12 @@ GivenParticles read_particles(const meniscus_particles* particles) {
     return read;
 }
 
-ParticleFrame read_frame(const meniscus_particles* particles, FrameBuffers& buffers) {
+HandedFrame read_frame(const meniscus_particles* particles, FrameBuffers& buffers) {
     const meniscus_particles given = checked(particles);
     ParticleFrame frame;
     frame.levels = levels_of(given);
-    if (given.positions != nullptr && (given.stride == 0 || given.stride == 3 * sizeof(float))) {
+    const bool stay = given.positions == nullptr || (given.stride != 0 && given.stride != 3 * sizeof(float));
+    if (!stay) {
         frame.positions = {given.positions, 3 * given.count};
     } else {
         buffers.positions.resize(3 * given.count);
@@ -111,7 +137,7 @@ ParticleFrame read_frame(const meniscus_particles* particles, FrameBuffers& buff
     }
     read_arrays(given, buffers.arrays);
     frame.arrays = buffers.arrays;
-    return frame;
+    return {frame, stay};
 }
 
 }  // namespace meniscus::c

@@ -7,6 +7,7 @@
 
 #include "meniscus/meniscus.h"
 #include "meniscus/particle_frame.hpp"
+#include "meniscus/parts.hpp"
 #include "meniscus/strided_positions.hpp"
 
 namespace meniscus::c {
@@ -27,7 +28,7 @@ struct FrameBuffers {
     std::vector<ParticleArray> arrays;
 };
 
-/// The particles as a frame, which borrows from the caller and from the buffers.
-ParticleFrame read_frame(const meniscus_particles* particles, FrameBuffers& buffers);
+/// The particles as a frame, which borrows from the caller, and positions that must be converted from the buffers.
+HandedFrame read_frame(const meniscus_particles* particles, FrameBuffers& buffers);
 
 }  // namespace meniscus::c

@@ -38,7 +38,7 @@ meniscus_result meniscus_reconstruct(meniscus_reconstructor* reconstructor, cons
     return guarded([&] {
         meniscus_reconstructor& used = required(reconstructor, "reconstructor");
         meniscus_mesh& filled = required(mesh, "mesh");
-        const meniscus::ParticleFrame frame = read_frame(particles, used.buffers);
+        const meniscus::ParticleFrame frame = read_frame(particles, used.buffers).frame;
         filled.forget_arrays();
         used.content.reconstruct(frame, filled.content);
         filled.statistics = used.content.statistics();

@@ -127,17 +127,19 @@ void MeshParticles::read_positions(const Node& values) {
     particles_.count = axes[0].count;
     if (particles_.count == 0) return;
     const bool all_float = std::ranges::all_of(axes, [](const Numbers& a) { return a.type == NumberType::float32; });
-    const std::ptrdiff_t bytes = all_float ? sizeof(float) : sizeof(double);
-    const auto follows = [&](const Numbers& axis, std::ptrdiff_t place) {
+    const std::size_t bytes = all_float ? sizeof(float) : sizeof(double);
+    // A stride from one number on is one of the C interface.
+    const bool alike = std::ranges::all_of(axes, [&](const Numbers& axis) {
         return axis.type == axes[0].type && axis.stride == axes[0].stride &&
-               axis.first == axes[0].first + place * bytes;
-    };
-    if (follows(axes[1], 1) && follows(axes[2], 2) && axes[0].stride >= 3 * bytes) {
+               axis.stride >= static_cast<std::ptrdiff_t>(bytes);
+    });
+    if (alike) {
         particles_.stride = static_cast<std::size_t>(axes[0].stride);
-        if (all_float)
-            particles_.positions = reinterpret_cast<const float*>(axes[0].first);
-        else
-            particles_.positions_double = reinterpret_cast<const double*>(axes[0].first);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (all_float)
+                particles_.axes[axis] = reinterpret_cast<const float*>(axes[axis].first);
+            else
+                particles_.axes_double[axis] = reinterpret_cast<const double*>(axes[axis].first);
     } else if (all_float) {
         particles_.positions = interleaved(axes, floats_);
     } else {

@@ -76,8 +76,17 @@ struct FinishedPart {
     const Statistics& statistics;
 };
 using PartSink = std::function<void(const FinishedPart&)>;
-/// Gives a frame that stays for the time of the call. Its error is thrown by all processes.
-using FrameGiver = std::function<ParticleFrame()>;
+/// A frame that stays for the time of the call. What stays until the next frame is asked for is not copied.
+struct HandedFrame {
+    ParticleFrame frame;
+    bool positions_stay = false;
+    bool rest_stays = false;  ///< levels and arrays
+
+    HandedFrame(const ParticleFrame& handed, bool its_positions_stay = false, bool its_rest_stays = false)
+        : frame(handed), positions_stay(its_positions_stay), rest_stays(its_rest_stays) {}
+};
+/// Its error is thrown by all processes.
+using FrameGiver = std::function<HandedFrame()>;
 
 /// Figures of a frame in parts, over all processes, of parts as they were made last.
 struct PartsReport {
@@ -115,7 +124,7 @@ public:
     // to make. All processes call begin() and go_on() together, one after the other; make() is each one's own, and any
     // thread's.
 
-    /// Copies the particles, and brings the first ones to those that make parts of them.
+    /// Copies the particles that do not stay, and brings the first ones to those that make parts of them.
     void begin(const FrameGiver& mine);
     /// Makes a part of these particles, if this process has one to make now. What goes wrong is thrown by go_on().
     void make(const PartSink& sink) noexcept;

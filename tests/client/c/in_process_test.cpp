@@ -77,7 +77,7 @@ TEST(CInProcess, ArraysAreThoseOfTheFrameThatCameLast) {
     }
 }
 
-TEST(CInProcess, TakesFloat64AndPositionsWithinRecords) {
+TEST(CInProcess, TakesFloat64AndPositionsWithinRecordsAndAxesApart) {
     const Particles particles = splash(5, 5);
     const std::string expected = mesh_sha256(reconstruct(default_settings(), particles.frame()));
     const CReconstructor reconstructor = default_reconstructor();
@@ -99,6 +99,25 @@ TEST(CInProcess, TakesFloat64AndPositionsWithinRecords) {
     input.count = records.size();
     input.positions = records[0].position;
     input.stride = sizeof(Record);
+    ASSERT_EQ(meniscus_reconstruct(reconstructor.get(), &input, mesh.get()), MENISCUS_OK) << meniscus_error_message();
+    EXPECT_EQ(sha256(mesh), expected);
+
+    std::vector<float> axes[3];
+    std::vector<double> wide_axes[3];
+    for (std::size_t i = 0; i < particles.positions.size(); ++i) {
+        axes[i % 3].push_back(particles.positions[i]);
+        wide_axes[i % 3].insert(wide_axes[i % 3].end(), {particles.positions[i], 1e9});
+    }
+    input = MENISCUS_PARTICLES_INIT;
+    input.count = particles.count();
+    for (std::size_t axis = 0; axis < 3; ++axis) input.axes[axis] = axes[axis].data();
+    ASSERT_EQ(meniscus_reconstruct(reconstructor.get(), &input, mesh.get()), MENISCUS_OK) << meniscus_error_message();
+    EXPECT_EQ(sha256(mesh), expected);
+
+    input = MENISCUS_PARTICLES_INIT;
+    input.count = particles.count();
+    input.stride = 2 * sizeof(double);
+    for (std::size_t axis = 0; axis < 3; ++axis) input.axes_double[axis] = wide_axes[axis].data();
     ASSERT_EQ(meniscus_reconstruct(reconstructor.get(), &input, mesh.get()), MENISCUS_OK) << meniscus_error_message();
     EXPECT_EQ(sha256(mesh), expected);
 }
@@ -272,11 +291,21 @@ TEST(CInProcess, RefusesWrongParticlesAndGoesOn) {
 
     meniscus_particles particles = c_frame(good);
     particles.positions = nullptr;
-    expect_refused(particles, "both NULL");
+    expect_refused(particles, "are all NULL");
     const double numbers[] = {0.0, 0.0, std::numeric_limits<double>::max()};
     particles = c_frame(good);
     particles.positions_double = numbers;
-    expect_refused(particles, "both set");
+    expect_refused(particles, "positions and positions_double are both set");
+    particles = c_frame(good);
+    particles.axes[2] = good.positions.data();
+    expect_refused(particles, "positions and axes are both set");
+    particles.positions = nullptr;
+    expect_refused(particles, "particles->axes[0] is NULL, must point to the x of");
+    particles = MENISCUS_PARTICLES_INIT;
+    particles.count = 1;
+    for (const double*& axis : particles.axes_double) axis = numbers;
+    particles.stride = 7;
+    expect_refused(particles, "the stride is 7 bytes, must be at least 8: one number of 8 bytes");
     particles = MENISCUS_PARTICLES_INIT;
     particles.count = 1;
     particles.positions_double = numbers;

@@ -31,9 +31,16 @@ Particles share_of(std::uint64_t frame, std::size_t rank, std::size_t ranks) {
     return mine;
 }
 
+/// In turn as float32 that lie together, and float64 axis by axis.
 meniscus_result push(meniscus_parts* parts, const meniscus_exchange& exchange, std::uint64_t frame) {
     const Particles mine = share_of(frame, exchange.rank, exchange.ranks);
-    const meniscus_particles particles = c_frame(mine);
+    meniscus_particles particles = c_frame(mine);
+    std::vector<double> axes[3];
+    if (frame % 2 == 1) {
+        particles.positions = nullptr;
+        for (std::size_t i = 0; i < mine.positions.size(); ++i) axes[i % 3].push_back(mine.positions[i]);
+        for (std::size_t axis = 0; axis < 3; ++axis) particles.axes_double[axis] = axes[axis].data();
+    }
     return meniscus_parts_push(parts, &particles, frame, 0.25 * static_cast<double>(frame));
 }
 
@@ -179,7 +186,7 @@ TEST_F(CParts, RefuseParticlesOnAllRanksAndGoOn) {
         meniscus_particles wrong = MENISCUS_PARTICLES_INIT;
         wrong.count = exchange.rank;
         EXPECT_TRUE(refused(meniscus_parts_push(parts, &wrong, 1, 0.0), MENISCUS_INVALID_INPUT,
-                            "rank 1: particles->positions and particles->positions_double are both NULL"));
+                            "rank 1: particles->positions, positions_double, axes and axes_double are all NULL"));
         wrong.positions = place;
         EXPECT_TRUE(
             refused(meniscus_parts_push(parts, &wrong, 2, 0.0), MENISCUS_INVALID_INPUT, "rank 1: particle 0 has"));

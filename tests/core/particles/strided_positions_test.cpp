@@ -47,6 +47,28 @@ TEST(StridedPositions, AreReadWhereverTheyLie) {
     EXPECT_EQ(copy_of(unaligned), std::vector<float>(positions.begin(), positions.end()));
 }
 
+TEST(StridedPositions, AreReadAxisByAxis) {
+    constexpr std::size_t count = 1500;  // more than are copied at once
+    std::array<std::vector<double>, 3> axes;
+    std::array<std::vector<float>, 3> narrow;
+    std::vector<float> expected;
+    for (std::size_t i = 0; i < 3 * count; ++i) {
+        axes[i % 3].insert(axes[i % 3].end(), {1.0 / static_cast<double>(1 + i), std::nan("")});
+        expected.push_back(static_cast<float>(axes[i % 3][2 * (i / 3)]));
+        narrow[i % 3].push_back(expected.back());
+    }
+    EXPECT_EQ(copy_of({std::array<const double*, 3>{axes[0].data(), axes[1].data(), axes[2].data()}, count, 16}),
+              expected);
+    EXPECT_EQ(copy_of({std::array<const float*, 3>{narrow[0].data(), narrow[1].data(), narrow[2].data()}, count}),
+              expected);
+    axes[1][2 * 1234] = 1e39;
+    const std::string said = refusal_to_copy([&] {
+        return StridedPositions(std::array<const double*, 3>{axes[0].data(), axes[1].data(), axes[2].data()}, count,
+                                16);
+    });
+    EXPECT_NE(said.find("particle 1234 has y = 1e+39"), std::string::npos) << said;
+}
+
 TEST(StridedPositions, AreRefusedWhereFloat32CannotHoldThem) {
     for (const double value : {0x1.ffffffp127, -0x1.ffffffp127, 1e300}) {
         const std::vector<double> numbers{0.0, 0.0, 0.0, 0.0, 0.0, value};
@@ -72,6 +94,15 @@ TEST(StridedPositions, AreRefusedWhereTheirMemoryMakesNoSense) {
               "the stride is 8 bytes, must be at least 24: three numbers of 8 bytes");
     EXPECT_NE(refusal_to_copy([] { return StridedPositions(static_cast<const float*>(nullptr), 3); }).find("no memory"),
               std::string::npos);
+    EXPECT_EQ(refusal_to_copy([&] {
+                  return StridedPositions(std::array<const double*, 3>{numbers.data(), nullptr, numbers.data()}, 2);
+              }),
+              "the frame has 2 particles, but no memory with their positions");
+    EXPECT_EQ(refusal_to_copy([&] {
+                  return StridedPositions(
+                      std::array<const double*, 3>{numbers.data(), numbers.data(), numbers.data()}, 2, 4);
+              }),
+              "the stride is 4 bytes, must be at least 8: one number of 8 bytes");
     std::vector<float> room(5);
     EXPECT_THROW(StridedPositions(numbers.data(), 2).copy_to(room), InvalidInput);
 }

@@ -104,17 +104,19 @@ typedef struct meniscus_array {
 typedef struct meniscus_particles {
     size_t struct_size;             /* sizeof(meniscus_particles) */
     size_t count;                   /* particles */
-    const float* positions;         /* x y z of each, world units, finite; or NULL, with positions_double instead */
+    const float* positions;         /* x y z of each, world units, finite; or NULL, and one of the others is set */
     const double* positions_double; /* each number is rounded to the nearest float32 */
-    size_t stride;                  /* bytes from one particle's x to the next one's; 0: three numbers */
+    size_t stride;                  /* bytes from one particle's x to the next one's; 0: there are no gaps */
     const uint8_t* levels;          /* NULL, or one of each: 0 to 3. Level k has 2^k times the radius of level 0 */
     size_t array_count;             /* at most 16, here and below since 0.2 */
     const meniscus_array* arrays;   /* further values of each, whose numbers are finite: those that the option
                                        "attribute" names become attributes of the vertices, others are passed over */
+    const float* axes[3];           /* in place of positions: where x, y and z lie, each by itself; since 0.2 */
+    const double* axes_double[3];   /* in place of positions_double; since 0.2 */
 } meniscus_particles;
 
 #define MENISCUS_PARTICLES_INIT \
-    { sizeof(meniscus_particles), 0, NULL, NULL, 0, NULL, 0, NULL }
+    { sizeof(meniscus_particles), 0, NULL, NULL, 0, NULL, 0, NULL, {NULL, NULL, NULL}, {NULL, NULL, NULL} }
 
 /* ---- Meshes ----------------------------------------------------------------------------------------------------- */
 

@@ -96,7 +96,7 @@ public:
                             const py::tuple arrays = arrays_of(frame);
                             frame_.take(given_frame(arrays[0], arrays[1], arrays[2]));
                         });
-                        return frame_.frame();
+                        return HandedFrame(frame_.frame(), true, true);
                     },
                     place.index, place.time);
             });
