@@ -6,10 +6,12 @@
 #include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/instruction_set.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/mesh_hash.hpp"
+#include "meniscus/parts.hpp"
 #include "meniscus/reconstructor.hpp"
 #include "support/golden_rows.hpp"
 #include "support/particles.hpp"
@@ -34,6 +36,21 @@ TEST(Golden, MeshesKeepTheirBits) {
 TEST(Golden, MeshesKeepTheirBitsOnThreeThreads) {
     test::expect_golden_meshes(
         [](const test::GoldenRow& row, const ParticleFrame& frame) { return reconstruct(row, frame, 3); });
+}
+
+TEST(Golden, MeshesKeepTheirBitsInParts) {
+    std::size_t rows = 0;
+    test::expect_golden_meshes([&](const test::GoldenRow& row, const ParticleFrame& frame) {
+        if (row.max_level < 3) return reconstruct(row, frame, 1);  // emitted of a whole's levels
+        AloneExchange alone;
+        PartsReconstructor reconstructor(row.settings(), {Backend::cpu, 1}, {.parts = 2 + rows++ % 7}, alone);
+        std::vector<Mesh> parts;
+        reconstructor.reconstruct(frame, [&](const FinishedPart& part) {
+            if (parts.size() <= part.number) parts.resize(part.number + 1);
+            parts[part.number] = part.mesh;
+        });
+        return put_together(parts);
+    });
 }
 
 /// The environment's choice, until the end of its life.
