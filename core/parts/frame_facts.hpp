@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "meniscus/part.hpp"
-#include "meniscus/parts.hpp"
 #include "particles/placed_frame.hpp"
+#include "parts/brick_deal.hpp"
 #include "parts/part_particles.hpp"
 
 namespace meniscus {
@@ -15,7 +15,7 @@ namespace meniscus {
 struct FrameFacts {
     FrameForm form;
     ParticlesByLevel by_level{};
-    std::vector<BrickLoad> loads;
+    std::vector<RankLoad> loads;
     std::vector<ArrayRange> ranges;
 
     std::uint64_t particles() const { return std::accumulate(by_level.begin(), by_level.end(), std::uint64_t{0}); }

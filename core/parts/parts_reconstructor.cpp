@@ -15,6 +15,7 @@
 #include "particles/validation.hpp"
 #include "particles/warnings.hpp"
 #include "parts/agreement.hpp"
+#include "parts/brick_deal.hpp"
 #include "parts/contacts.hpp"
 #include "parts/frame_facts.hpp"
 #include "parts/made_part.hpp"
@@ -43,7 +44,7 @@ public:
     Impl(const Settings& settings, const BackendOptions& backend, const PartsOptions& options, PartExchange& exchange)
         : settings_(settings), options_(options), agreement_(exchange), choice_(settings) {
         validate(settings);
-        deal_bricks({}, options.parts);
+        deal_loads({}, options.parts);
         FramePart part;
         part.overlap = options.overlap;
         validate(part);
@@ -79,7 +80,9 @@ public:
             facts_ = facts_together(of_ranks);
             // All processes hold the next frames against the same arrays, also one that has brought none.
             choice_.keep(facts_.form.without_values());
-            own_ = deal_bricks(facts_.loads, options_.parts);
+            const BrickDeal deal = deal_loads(std::move(facts_.loads), options_.parts);
+            own_ = deal.boxes;
+            rank_of_ = deal_parts(deal, options_.makers);
             overlaps_.assign(own_.size(), options_.overlap);
             told_ = {};
             borders_.clear();
@@ -152,19 +155,19 @@ private:
         facts.by_level = count_levels(mine);
         // One frame may have parts by the hundred, and the largest decides how much memory it takes: all count there.
         const std::size_t group = making_ == Making::at_once ? 1 : mine.count() / particles_for_deal;
-        facts.loads = brick_loads(mine, settings_, std::max<std::size_t>(group, 1));
+        const auto rank = static_cast<std::uint32_t>(agreement_.rank());
+        for (const BrickLoad& load : brick_loads(mine, settings_, std::max<std::size_t>(group, 1)))
+            facts.loads.push_back({load.brick, rank, load.particles});
         facts.ranges = array_ranges(mine, settings_);
         return facts;
     }
-
-    std::size_t rank_of(std::size_t part) const { return options_.makers[part * options_.makers.size() / own_.size()]; }
 
     /// One part of each process at a time: of the particles near it there is one copy beside the frame.
     void deal_turns() {
         of_rank_.assign(agreement_.ranks(), {});
         turns_ = 0;
         for (const std::size_t part : wanted_) {
-            std::vector<std::size_t>& its = of_rank_[rank_of(part)];
+            std::vector<std::size_t>& its = of_rank_[rank_of_[part]];
             its.push_back(part);
             turns_ = std::max(turns_, its.size());
         }
@@ -213,7 +216,8 @@ private:
         agreement_.all_to_all(to_touching_, from_touching_, [&] {
             rethrow_error();
             to_touching_.resize(agreement_.ranks());
-            write_contacts(borders_, [this](std::uint64_t part) { return rank_of(part); }, to_touching_);
+            write_contacts(
+                borders_, [this](std::uint64_t part) { return rank_of_[part]; }, to_touching_);
         });
         std::vector<PartExchange::Bytes> told = agreement_.gather([&] {
             told_.take(compare_contacts(borders_, from_touching_));
@@ -275,11 +279,12 @@ private:
     ParticlesNear near_;
     FrameFacts facts_;
     std::vector<BrickBox> own_;
+    std::vector<std::size_t> rank_of_;  ///< that makes each part
     std::vector<std::uint32_t> overlaps_;
     std::optional<Warning> wrong_radius_;
-    PartsReport report_;  ///< without what is summed up of the parts
-    PartsTold told_;      ///< by this process
-    Borders borders_;     ///< of its parts
+    PartsReport report_;                                            ///< without what is summed up of the parts
+    PartsTold told_;                                                ///< by this process
+    Borders borders_;                                               ///< of its parts
     std::vector<PartExchange::Bytes> to_touching_, from_touching_;  ///< of these, to the parts beyond
     // Of the round:
     std::vector<std::size_t> wanted_;  ///< the parts to make, in all processes

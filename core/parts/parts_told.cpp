@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <span>
 
-
 namespace meniscus {
 
 void PartsTold::take(std::uint64_t part, const MadePart& figures, const Mesh& mesh) {

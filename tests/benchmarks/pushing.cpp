@@ -64,17 +64,38 @@ public:
     void abandon() noexcept override {}
 };
 
+/// Counts what a rank sends to others: particles, and what parts tell those that touch them.
+class CountingExchange final : public PartExchange {
+public:
+    explicit CountingExchange(PartExchange& exchange) : exchange_(exchange) {}
+    std::size_t rank() const override { return exchange_.rank(); }
+    std::size_t ranks() const override { return exchange_.ranks(); }
+    std::vector<Bytes> gather(Bytes mine) override { return exchange_.gather(std::move(mine)); }
+    void all_to_all(std::vector<Bytes>& to, std::vector<Bytes>& from) override {
+        for (std::size_t rank = 0; rank < to.size(); ++rank)
+            if (rank != exchange_.rank()) bytes_ += to[rank].size();
+        exchange_.all_to_all(to, from);
+    }
+    std::uint64_t bytes() const { return bytes_; }
+
+private:
+    PartExchange& exchange_;
+    std::uint64_t bytes_ = 0;
+};
+
 struct Measured {
     std::vector<double> push_seconds, copy_seconds;
+    double sent = 0.0;  ///< bytes to other ranks, over those of its particles
 };
 
 /// A rank's life. Processor time of this thread alone: the exchange sleeps where another rank is waited for, and what
 /// the thread of the parts takes is not the simulation's.
-Measured push_frames(PartExchange& exchange, const std::vector<float>& positions, std::vector<std::size_t> makers,
+Measured push_frames(PartExchange& ranks, const std::vector<float>& positions, std::vector<std::size_t> makers,
                      unsigned count) {
     Settings settings;
     settings.particle_radius = radius_of_pushed;
     NoPublisher publisher;
+    CountingExchange exchange(ranks);
     const std::size_t parts = makers.size();
     LiveParts live(settings, {.backend = Backend::cpu, .threads = 1}, {.parts = parts, .makers = std::move(makers)},
                    LivePolicy::latest, exchange, publisher);
@@ -99,28 +120,34 @@ Measured push_frames(PartExchange& exchange, const std::vector<float>& positions
         }
     }
     live.finish();
+    measured.sent = static_cast<double>(exchange.bytes()) /
+                    static_cast<double>(std::size_t{count} * positions.size() * sizeof(float));
     return measured;
 }
 
 Row measure(const Frames& of_ranks, std::size_t makers, unsigned frames) {
     std::vector<std::size_t> those(makers);
     for (std::size_t i = 0; i < makers; ++i) those[i] = i * of_ranks.size() / makers;
-    std::vector<double> ratios(of_ranks.size()), pushes(of_ranks.size());
+    std::vector<double> ratios(of_ranks.size()), pushes(of_ranks.size()), sent(of_ranks.size());
     test::on_ranks(of_ranks.size(), [&](PartExchange& exchange) {
         const std::size_t rank = exchange.rank();
         Measured measured = push_frames(exchange, of_ranks[rank], those, frames);
         pushes[rank] = median(std::move(measured.push_seconds));
         ratios[rank] = pushes[rank] / median(std::move(measured.copy_seconds));
+        sent[rank] = measured.sent;
     });
     Row row;
     row["least_over_a_copy"] = *std::min_element(ratios.begin(), ratios.end());
     row["greatest_over_a_copy"] = *std::max_element(ratios.begin(), ratios.end());
     row["greatest_push_processor_seconds"] = *std::max_element(pushes.begin(), pushes.end());
+    row["bytes_between_ranks_over_particles"] =
+        std::accumulate(sent.begin(), sent.end(), 0.0) / static_cast<double>(sent.size());
     return row;
 }
 
 void run_pushing(const PushingOptions& options) {
-    std::cout << "particles of   makers   over a copy: least   greatest rank   ms of the greatest\n" << std::fixed;
+    std::cout << "particles of   makers   over a copy: least   greatest rank   ms of the greatest   sent\n"
+              << std::fixed;
     const std::vector<float> water =
         make_water(WaterKind::splashing, options.ranks * options.particles, radius_of_pushed);
     Rows rows = Rows::array();
@@ -135,7 +162,8 @@ void run_pushing(const PushingOptions& options) {
             std::cout << std::setw(12) << name << std::setw(9) << makers << std::setprecision(2) << std::setw(21)
                       << row["least_over_a_copy"].get<double>() << std::setw(16)
                       << row["greatest_over_a_copy"].get<double>() << std::setw(21)
-                      << 1e3 * row["greatest_push_processor_seconds"].get<double>() << std::endl;
+                      << 1e3 * row["greatest_push_processor_seconds"].get<double>() << std::setw(7)
+                      << row["bytes_between_ranks_over_particles"].get<double>() << std::endl;
             rows.push_back(row);
         }
     }

@@ -59,8 +59,9 @@ public:
     /// Waits for what is being made, without the others.
     ~LiveParts();
 
-    /// mine: gives the particles of this process, if the frame is not left out: what does not stay is copied. index: greater than
-    /// the one before; index and time are the same in all processes. False: the frame is left out, in all of them.
+    /// mine: gives the particles of this process, if the frame is not left out: what does not stay is copied. index:
+    /// greater than the one before; index and time are the same in all processes. False: the frame is left out, in all
+    /// of them.
     ///
     /// An error of one process is thrown by all, with its rank: InvalidInput for particles, an index or a time that
     /// cannot be, and errors of the frame before, PublishingFailed among them. This frame is then left out, and the

@@ -34,7 +34,7 @@ std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& s
 /// side with more to do for each of its parts has least: its particles, and half of those in the layer of bricks beyond
 /// the cut, of which it needs some. The same for the same loads, in whatever order. parts: 1 to max_parts; there are
 /// fewer boxes where a brick would have several.
-std::vector<BrickBox> deal_bricks(std::vector<BrickLoad> loads, std::size_t parts);
+std::vector<BrickBox> deal_bricks(std::span<const BrickLoad> loads, std::size_t parts);
 inline constexpr std::size_t max_parts = 65536;
 
 /// What the processes that make one surface tell each other. All of them call the same functions in the same order.
@@ -104,7 +104,8 @@ struct PartsReport {
 };
 
 /// Reconstructs frames in parts; one in each process of an exchange, each with the same settings and options. A process
-/// makes its parts in turn: the parts are dealt to the makers by their numbers.
+/// makes its parts in turn: of those it has as many as the other makers, or one more, and they are those in which it
+/// has most particles, as far as that goes.
 ///
 /// Where one process throws, all throw, with its rank in the message; then the frame is over, and another may begin.
 class PartsReconstructor {

@@ -98,11 +98,11 @@ TEST(StridedPositions, AreRefusedWhereTheirMemoryMakesNoSense) {
                   return StridedPositions(std::array<const double*, 3>{numbers.data(), nullptr, numbers.data()}, 2);
               }),
               "the frame has 2 particles, but no memory with their positions");
-    EXPECT_EQ(refusal_to_copy([&] {
-                  return StridedPositions(
-                      std::array<const double*, 3>{numbers.data(), numbers.data(), numbers.data()}, 2, 4);
-              }),
-              "the stride is 4 bytes, must be at least 8: one number of 8 bytes");
+    EXPECT_EQ(
+        refusal_to_copy([&] {
+            return StridedPositions(std::array<const double*, 3>{numbers.data(), numbers.data(), numbers.data()}, 2, 4);
+        }),
+        "the stride is 4 bytes, must be at least 8: one number of 8 bytes");
     std::vector<float> room(5);
     EXPECT_THROW(StridedPositions(numbers.data(), 2).copy_to(room), InvalidInput);
 }

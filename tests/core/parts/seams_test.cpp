@@ -30,7 +30,8 @@ Borders borders_of_halves(const Settings& settings, const ParticleFrame& frame, 
 /// As one process that makes both.
 ComparedContacts compared(const Borders& borders) {
     std::vector<PartExchange::Bytes> messages(1);
-    write_contacts(borders, [](std::uint64_t) { return std::size_t{0}; }, messages);
+    write_contacts(
+        borders, [](std::uint64_t) { return std::size_t{0}; }, messages);
     return compare_contacts(borders, messages);
 }
 

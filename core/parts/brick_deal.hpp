@@ -1,0 +1,40 @@
+// Bricks dealt to parts, with what each process has in them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "meniscus/brick_box.hpp"
+
+namespace meniscus {
+
+/// Particles of a process in a brick.
+struct RankLoad {
+    BrickCoordinate brick{};
+    std::uint32_t rank = 0;
+    std::uint64_t particles = 0;
+};
+
+struct BrickDeal {
+    std::vector<BrickBox> boxes;    ///< of the parts
+    std::vector<RankLoad> loads;    ///< those in the first box, then those in the next
+    std::vector<std::size_t> ends;  ///< where in `loads` those of each part end
+
+    std::span<const RankLoad> loads_of(std::size_t part) const {
+        const std::size_t begin = part == 0 ? 0 : ends[part - 1];
+        return std::span(loads).subspan(begin, ends[part] - begin);
+    }
+};
+
+/// As deal_bricks().
+BrickDeal deal_loads(std::vector<RankLoad> loads, std::size_t parts);
+
+/// The rank that makes each part. All makers have as many parts, or one more: the first ones of so many as the numbers
+/// of parts and makers give. Of the parts each gets those in which it has most particles, as far as no other has more
+/// there. What ranks without parts have counts as that of the maker before them, which shares a machine with them as a
+/// rule. makers: ascending.
+std::vector<std::size_t> deal_parts(const BrickDeal& deal, std::span<const std::size_t> makers);
+
+}  // namespace meniscus
