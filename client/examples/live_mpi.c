@@ -6,12 +6,13 @@
  *
  * Where parts_mpi.c gives the server particles, this gives it a surface that is done.
  */
+#define _POSIX_C_SOURCE 199309L /* nanosleep */
 #include <math.h>
 #include <meniscus/mpi.h>
 #include <stdio.h>
-#include <unistd.h>
+#include <time.h>
 
-enum { steps = 3000, most_particles = 100000 };
+enum { steps = 3000, most_particles = 20000 };
 static const double radius = 0.02, back = -1.5, front = 3.0, width = 0.6; /* metres; the dam is at x = 0 */
 
 /* Ritter's dam break: the depth of water that stood a metre high behind the dam, `seconds` after it is gone. */
@@ -25,9 +26,10 @@ static double depth_at(double x, double seconds) {
 static size_t fill(double from, double to, double seconds, float* positions) {
     size_t count = 0;
     for (double x = back + radius; x < to; x += 2.0 * radius) {
+        if (x < from) continue;
         const double depth = depth_at(x, seconds), layers = floor(depth / (2.0 * radius) + 0.5);
-        for (double y = radius; x >= from && y < width; y += 2.0 * radius)
-            for (double z = 0.5; z < layers && count < most_particles; z += 1.0) {
+        for (double y = radius; y < width; y += 2.0 * radius)
+            for (double z = 0.5; z < layers; z += 1.0) {
                 float* const particle = positions + 3 * count++;
                 particle[0] = (float)x, particle[1] = (float)y, particle[2] = (float)(z * depth / layers);
             }
@@ -54,7 +56,8 @@ int main(int argc, char** argv) {
     }
     meniscus_options_destroy(options);
     const double slab = (front - back) / ranks, from = back + slab * rank;
-    for (uint64_t step = 0; step < steps; ++step, usleep(20000)) {
+    const struct timespec pause = {0, 20000000};
+    for (uint64_t step = 0; step < steps; ++step) {
         static float positions[3 * most_particles];
         meniscus_particles mine = MENISCUS_PARTICLES_INIT;
         mine.count = fill(from, from + slab, fmod(0.002 * (double)step, 0.48), positions); /* again and again */
@@ -63,6 +66,7 @@ int main(int argc, char** argv) {
          * away. */
         if (meniscus_parts_push(parts, &mine, step, 0.002 * (double)step) < 0 && rank == 0)
             fprintf(stderr, "%s\n", meniscus_error_message());
+        nanosleep(&pause, NULL);
     }
     uint64_t dropped = 0;
     meniscus_parts_dropped(parts, &dropped);

@@ -136,7 +136,7 @@ public:
         report.own_vertices = all.own_vertices();
         report.ranges = all.whole_ranges();
         Statistics& whole = report.whole;
-        whole.vertices = std::accumulate(report.own_vertices.begin(), report.own_vertices.end(), std::uint64_t{0});
+        whole.vertices = sum.own_vertices;
         whole.triangles_by_level = sum.triangles_by_level;
         for (const std::uint64_t triangles : sum.triangles_by_level) whole.triangles += triangles;
         whole.base_cells_by_level = sum.base_cells_by_level;

@@ -21,7 +21,7 @@ struct PartRange {
 
 struct PartsTold {
     std::uint64_t unequal_seams = 0;
-    std::vector<std::uint64_t> unequal_parts;  ///< those on both sides of these, ascending, each once
+    std::vector<std::uint64_t> unequal_parts;  ///< those on both sides of these; some several times
     std::vector<MadePart> made;
     std::vector<PartRange> ranges;
 
@@ -32,7 +32,7 @@ struct PartsTold {
     PartExchange::Bytes packed() const;
     /// Takes what a process tells, packed.
     void add(const PartExchange::Bytes& message);
-    /// Takes of it the seams that differ alone.
+    /// Takes of it the seams that differ alone: unequal_parts are ascending then, each once.
     void add_unequal(const PartExchange::Bytes& message);
 
     MadePart sum() const;

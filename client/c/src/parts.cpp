@@ -11,8 +11,8 @@ using namespace meniscus::c;
 
 struct meniscus_parts {
     RankExchange exchange;
-    std::optional<meniscus::ranks::PartsJob> job;
     FrameBuffers buffers;
+    std::optional<meniscus::ranks::PartsJob> job;  ///< goes first: it borrows from the buffers
 
     explicit meniscus_parts(const meniscus_exchange* ranks) : exchange(ranks) {}
 };

@@ -41,7 +41,7 @@ TEST(Golden, MeshesKeepTheirBitsOnThreeThreads) {
 TEST(Golden, MeshesKeepTheirBitsInParts) {
     std::size_t rows = 0;
     test::expect_golden_meshes([&](const test::GoldenRow& row, const ParticleFrame& frame) {
-        if (row.max_level < 3) return reconstruct(row, frame, 1);  // emitted of a whole's levels
+        if (row.max_level < 3) return reconstruct(row, frame, 1);  // parts have no capped levels
         AloneExchange alone;
         PartsReconstructor reconstructor(row.settings(), {Backend::cpu, 1}, {.parts = 2 + rows++ % 7}, alone);
         std::vector<Mesh> parts;
