@@ -66,7 +66,8 @@ PartsArguments parts_arguments(const Options& options) {
     common.erase("server");
     for (const Options& own : {out.connection, some_of(options, text_options::read_backend)})
         for (const auto& option : own) common.erase(option.first);
-    for (const auto& [name, value] : common) out.common += (out.common.empty() ? "" : " ") + name + "=" + value;
+    for (const auto& [name, value] : common)
+        out.common.append(out.common.empty() ? "" : " ").append(name).append("=").append(value);
     const bool has_policy = out.session.erase("policy") != 0;
     if (publisher.policy == client::UploadPolicy::every_nth)
         throw InvalidInput("option 'policy' is 'every-nth', must be latest or every-frame");

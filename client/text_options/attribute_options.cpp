@@ -66,6 +66,7 @@ std::vector<AttributeWish> read_attribute_wishes(OptionReader& options) {
     const int bits = read_attribute_bits(options);
     if (names == std::vector{std::string(all)}) return every_attribute(bits);
     std::vector<AttributeWish> wishes;
+    wishes.reserve(names.size());
     for (const std::string& name : names) wishes.push_back(wish_of(name, bits, options.naming()));
     return wishes;
 }

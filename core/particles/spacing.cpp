@@ -238,8 +238,8 @@ std::optional<FittingRadius> radius_that_fits(const ParticleFrame& frame, double
     const auto [level, particles] = most_frequent_level(frame);
     if (particles < fewest_particles) return std::nullopt;
     const double unit = std::ldexp(radius, level);
-    const auto fitting = [&](double sixth, double alone) {
-        return FittingRadius{two_digits(std::ldexp(sixth / usual_sixth, -int{level})), alone};
+    const auto fitting = [exponent = -int{level}](double sixth, double alone) {
+        return FittingRadius{two_digits(std::ldexp(sixth / usual_sixth, exponent)), alone};
     };
 
     Probes probes(frame, level);

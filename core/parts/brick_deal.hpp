@@ -31,10 +31,10 @@ struct BrickDeal {
 /// As deal_bricks().
 BrickDeal deal_loads(std::vector<RankLoad> loads, std::size_t parts);
 
-/// The rank that makes each part. Each maker has as many as the others, or one more. Parts are given away by the number of
-/// particles that a maker has in one, the greatest first; what is left over goes to makers with fewer than they must have.
-/// A rank without parts shares a machine with the maker before it, as a rule: its particles count as that maker's, and
-/// those of ranks before all makers as the first one's. makers: ascending.
+/// The rank that makes each part. Each maker has as many as the others, or one more. Parts are given away by the number
+/// of particles that a maker has in one, the greatest first; what is left over goes to makers with fewer than they must
+/// have. A rank without parts shares a machine with the maker before it, as a rule: its particles count as that
+/// maker's, and those of ranks before all makers as the first one's. makers: ascending.
 std::vector<std::size_t> deal_parts(const BrickDeal& deal, std::span<const std::size_t> makers);
 
 }  // namespace meniscus

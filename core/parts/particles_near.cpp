@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <ranges>
 #include <utility>
 
 #include "particles/positions.hpp"
@@ -101,6 +100,20 @@ std::size_t choose(std::span<const Number> numbers, std::size_t first_particle, 
     return count;
 }
 
+/// The first of all 16-bit numbers from which on it holds; 65536 where it holds of none.
+template <class Holds>
+float first_number(const Holds& holds) {
+    int first = 0, end = 65536;
+    while (first < end) {
+        const int middle = first + (end - first) / 2;
+        if (holds(middle))
+            end = middle;
+        else
+            first = middle + 1;
+    }
+    return static_cast<float>(first);
+}
+
 }  // namespace
 
 void ParticlesNear::begin(const ParticleFrame& frame) {
@@ -123,14 +136,11 @@ NumberBounds ParticlesNear::numbers_within(const Box& box) const {
         float& greatest = numbers.greatest[axis];
         if (frame_.is_quantized()) {
             const Box& ends = frame_.quantization_box;
-            const auto all = std::views::iota(0, 65536);
             const auto coordinate = [&](int number) {
                 return decoded(static_cast<std::uint16_t>(number), ends.min[axis], ends.max[axis]);
             };
-            const auto from = std::ranges::partition_point(all, [&](int n) { return coordinate(n) < box.min[axis]; });
-            const auto to = std::ranges::partition_point(all, [&](int n) { return coordinate(n) <= box.max[axis]; });
-            least = static_cast<float>(from - all.begin());
-            greatest = static_cast<float>(to - all.begin()) - 1.0F;
+            least = first_number([&](int n) { return coordinate(n) >= box.min[axis]; });
+            greatest = first_number([&](int n) { return coordinate(n) > box.max[axis]; }) - 1.0F;
         } else {
             constexpr float infinity = std::numeric_limits<float>::infinity();
             constexpr double most = std::numeric_limits<float>::max();

@@ -65,7 +65,7 @@ SocketAddress bind_near(int socket, const sockaddr& server, socklen_t size) {
     if (server.sa_family == AF_INET6)
         reinterpret_cast<sockaddr_in6&>(own.storage).sin6_addr =
             reinterpret_cast<const sockaddr_in6&>(server).sin6_addr;
-    ::bind(socket, &own.get(), own.size);
+    static_cast<void>(::bind(socket, &own.get(), own.size));
     own.size = sizeof own.storage;
     ::getsockname(socket, &own.get(), &own.size);
     return own;

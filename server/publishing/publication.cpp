@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
-#include <ranges>
 #include <utility>
+#include <vector>
 
 #include "conversion/settings_conversion.hpp"
 #include "files/publication_format.hpp"
@@ -125,10 +126,11 @@ void Publication::end_segment(Clock::time_point now) {
     bytes_ += file->bytes.size();
     segments_.push_back({.entry = std::move(built.entry), .file = std::move(file)});
     change_manifest();
-    const auto listed = std::ranges::subrange(std::ranges::find_if(segments_, &Segment::is_listed), segments_.end());
-    const std::size_t old =
-        files::segments_beyond(listed, keep_seconds_, [](const Segment& segment) { return segment.entry.seconds(); });
-    for (Segment& segment : listed | std::views::take(old)) leave(segment, now);
+    const auto first = std::ranges::find_if(segments_, &Segment::is_listed);
+    std::vector<double> seconds;
+    for (auto listed = first; listed != segments_.end(); ++listed) seconds.push_back(listed->entry.seconds());
+    const std::size_t old = files::segments_beyond(seconds, keep_seconds_, [](double each) { return each; });
+    for (std::size_t i = 0; i < old; ++i) leave(first[static_cast<std::ptrdiff_t>(i)], now);
 }
 
 void Publication::end(std::uint64_t turn, Clock::time_point now) {

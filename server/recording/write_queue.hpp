@@ -39,6 +39,7 @@ public:
     }
 
     /// Puts a value in, after reserve() of the same bytes for the name.
+    // NOLINTNEXTLINE(performance-unnecessary-value-param): it is moved
     void put(T value, std::string name, std::size_t bytes) {
         {
             const std::lock_guard lock(mutex_);

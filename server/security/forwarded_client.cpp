@@ -1,7 +1,7 @@
 #include "security/forwarded_client.hpp"
 
 #include <algorithm>
-#include <ranges>
+#include <cstddef>
 #include <string>
 
 namespace meniscus::server {
@@ -26,7 +26,8 @@ std::optional<PeerAddress> forwarded_client(const TrustedPeers& trusted, const P
                                             std::span<const std::string_view> headers) {
     std::optional<PeerAddress> client;
     if (!trusted.is_proxy(peer)) return client;
-    for (std::string_view rest : headers | std::views::reverse) {
+    for (std::size_t left = headers.size(); left > 0; --left) {
+        std::string_view rest = headers[left - 1];
         while (!rest.empty()) {
             const std::size_t comma = rest.rfind(',');
             const auto noted = address_in(rest.substr(comma + 1));

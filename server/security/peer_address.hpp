@@ -36,7 +36,8 @@ public:
     /// The address as IPv6, IPv4 within ::ffff:0:0/96; zero for this machine.
     const std::array<unsigned char, 16>& bytes() const noexcept { return bytes_; }
 
-    std::strong_ordering operator<=>(const PeerAddress&) const = default;
+    std::strong_ordering operator<=>(const PeerAddress&) const =
+        default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 means what the compiler writes here
 
 private:
     std::array<unsigned char, 16> bytes_{};

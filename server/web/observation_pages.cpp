@@ -15,7 +15,7 @@ void add_observation_pages(Router& router, std::function<std::vector<prometheus:
     const Page dead{.status = 503, .body = "the gRPC port does not answer\n"};
     router.add("/healthz", [alive, dead] { return alive() ? Page{.body = "alive\n"} : dead; });
     router.add("/readyz", [alive, dead, ready = std::move(ready)] {
-        if (!alive()) return dead;
+        if (!alive()) return Page(dead);
         return ready() ? Page{.body = "ready\n"} : Page{.status = 503, .body = "shutting down\n"};
     });
 }

@@ -16,8 +16,8 @@ namespace meniscus::catalyst {
 class MeshParticles {
 public:
     /// mesh: with topologies of points, explicit coordsets and fields. The particles borrow from it, where they lie as
-    /// the C interface takes them: x, y and z of one type and stride, fields without gaps; the rest is put together here.
-    /// Fields are those that the options name. Throws InvalidInput for a mesh without particles.
+    /// the C interface takes them: x, y and z of one type and stride, fields without gaps; the rest is put together
+    /// here. Fields are those that the options name. Throws InvalidInput for a mesh without particles.
     const meniscus_particles& read(const Node& mesh, const RunOptions& options, Notices& notices);
     /// None.
     const meniscus_particles& empty();

@@ -11,6 +11,7 @@ bool answers(int) {
     return false;
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): as where there are devices
 std::shared_ptr<PagePinning> page_pinning(int, std::function<void(const std::string& reason)>) {
     return nullptr;
 }

@@ -297,6 +297,7 @@ void BrickReader::read(const InputFrame& input, ReconstructedFrame& frame) {
     for (const Known& brick : known) finished->bricks.push_back(brick.messages);
     if (check_ == Check::closed_surface) {
         std::vector<std::shared_ptr<const OpenEdges>> open;
+        open.reserve(known.size());
         for (const Known& brick : known) open.push_back(brick.open);
         require_closed(open, mesh, scratch_.account());
     }

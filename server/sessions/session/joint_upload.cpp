@@ -55,10 +55,10 @@ void require_equal(const UploadOptions& options, const UploadOptions& first, std
 }  // namespace
 
 std::shared_ptr<JointUpload> JointUpload::open(const std::shared_ptr<Session>& session, const UploadOptions& options,
-                                               std::uint32_t part, std::weak_ptr<PartStream> stream) {
+                                               std::uint32_t part, const std::weak_ptr<PartStream>& stream) {
     JointUploads& all = session->joint_uploads();
     const std::lock_guard lock(all.mutex);
-    if (const auto newest = all.newest.lock(); options.parts > 1 && newest && newest->options_.run_id == options.run_id)
+    if (auto newest = all.newest.lock(); options.parts > 1 && newest && newest->options_.run_id == options.run_id)
         if (newest->take_part(options, part, stream)) return newest;
     auto made = std::make_shared<JointUpload>(session, options.parts);
     made->make_upload(options);

@@ -51,7 +51,7 @@ public:
     /// a part that is there already; InvalidInput for options that differ from those of the other parts. part: below
     /// options.parts.
     static std::shared_ptr<JointUpload> open(const std::shared_ptr<Session>& session, const UploadOptions& options,
-                                             std::uint32_t part, std::weak_ptr<PartStream> stream);
+                                             std::uint32_t part, const std::weak_ptr<PartStream>& stream);
     /// See open().
     JointUpload(std::shared_ptr<Session> session, std::uint32_t parts) : session_(std::move(session)), parts_(parts) {}
 

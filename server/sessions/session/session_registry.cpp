@@ -221,7 +221,7 @@ void SessionRegistry::let_end(std::shared_ptr<Session> session) {
 
 BackendOptions SessionRegistry::place_session() const {
     if (backend_.backend == Backend::cpu) return backend_;
-    const BackendOptions place = place_on(backend_, cuda::devices(devices_), cuda::answers);
+    BackendOptions place = place_on(backend_, cuda::devices(devices_), cuda::answers);
     if (place.backend == Backend::cpu) spdlog::warn("no GPU answers any more: the next session goes to the CPU");
     return place;
 }

@@ -147,7 +147,8 @@ std::optional<MeshFormat> Watchers::next_unpublished_format(const std::function<
     });
     if (next == watches_.end()) return std::nullopt;
     const MeshFormat format = (*next)->options().format;
-    std::ranges::stable_partition(watches_, [&](const auto& watch) { return !watch->options().wants(format); });
+    std::stable_partition(watches_.begin(), watches_.end(),
+                          [&](const auto& watch) { return !watch->options().wants(format); });
     return format;
 }
 

@@ -36,7 +36,7 @@ using Held = std::unique_ptr<T, WaitingDelete>;
 
 template <class T>
 Held<T> hold(T&& content) {
-    return Held<T>(new T(std::move(content)));
+    return Held<T>(new T(std::forward<T>(content)));
 }
 
 }  // namespace meniscus::python

@@ -19,7 +19,7 @@ BackendOptions stopped_by(BackendOptions options, std::shared_ptr<const StopFlag
 
 }  // namespace
 
-SharedReconstructor::SharedReconstructor(const Settings& settings, BackendOptions options)
+SharedReconstructor::SharedReconstructor(const Settings& settings, const BackendOptions& options)
     : content_(settings, stopped_by(options, stop_)),
       backend_(describe_backend(options.backend, options.device).name) {}
 

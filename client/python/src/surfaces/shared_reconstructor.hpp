@@ -19,7 +19,7 @@ namespace meniscus::python {
 class SharedReconstructor {
 public:
     /// Throws as Reconstructor does.
-    SharedReconstructor(const Settings& settings, BackendOptions options);
+    SharedReconstructor(const Settings& settings, const BackendOptions& options);
 
     const Settings& settings() const { return content_.settings(); }
     /// "cpu" or "cuda".

@@ -49,7 +49,7 @@ pybind11::array array_of(std::vector<Element>&& elements, const pybind11::dtype&
     if (columns != 0) shape.push_back(static_cast<pybind11::ssize_t>(columns));
     const void* const data = kept->data();
     const pybind11::capsule owner(kept.get(), [](void* all) { delete static_cast<std::vector<Element>*>(all); });
-    kept.release();
+    static_cast<void>(kept.release());
     return pybind11::array(type, shape, data, owner);
 }
 

@@ -16,7 +16,7 @@ constexpr std::size_t axes = 3;
 
 /// Throws pybind11::error_already_set for what is no sequence.
 py::list list_of(const py::handle& given, std::size_t size) {
-    const auto list = py::reinterpret_steal<py::object>(PySequence_List(given.ptr()));
+    auto list = py::reinterpret_steal<py::object>(PySequence_List(given.ptr()));
     if (!list) throw py::error_already_set();
     if (py::len(list) != size) throw py::value_error();
     return list;

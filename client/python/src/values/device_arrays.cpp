@@ -90,6 +90,7 @@ DeviceArray device_array(const std::string& what, const py::dict& interface) {
     const py::object data = entry(interface, "data");
     if (!py::isinstance<py::tuple>(data) || py::len(data) != 2)
         refuse(what, "data", data, "an address and whether it is read-only");
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): so Python tells addresses
     array.data = reinterpret_cast<const void*>(address_of(py::cast<py::tuple>(data)[0], what, "data"));
     if (!entry(interface, "mask").is_none()) refuse(what, "mask", entry(interface, "mask"), "None");
     check_order(array, entry(interface, "strides"), element_bytes);
@@ -116,6 +117,7 @@ ElementType element_type_of(const std::string& type) {
 /// The reconstruction waits for one stream.
 void add_stream(DeviceParticleFrame& frame, const DeviceArray& array) {
     if (!array.stream) return;
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): likewise
     void* const stream = reinterpret_cast<void*>(*array.stream);
     if (frame.stream != nullptr && frame.stream != stream)
         throw InvalidInput(array.what + " is on another stream than the arrays before it: synchronize one of them");
