@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <time.h>
 
-enum { steps = 3000, most_particles = 20000 };
+enum { steps = 3000, most_particles = 20000 /* more than all of the water */ };
 static const double radius = 0.02, back = -1.5, front = 3.0, width = 0.6; /* metres; the dam is at x = 0 */
 
 /* Ritter's dam break: the depth of water that stood a metre high behind the dam, `seconds` after it is gone. */
@@ -60,7 +60,8 @@ int main(int argc, char** argv) {
     for (uint64_t step = 0; step < steps; ++step) {
         static float positions[3 * most_particles];
         meniscus_particles mine = MENISCUS_PARTICLES_INIT;
-        mine.count = fill(from, from + slab, fmod(0.002 * (double)step, 0.48), positions); /* again and again */
+        mine.count = fill(from, from + slab, fmod(0.002 * (double)step, 0.48),
+                          positions); /* until the wave is at the back, again */
         mine.positions = positions;
         /* Whatever it returns, the simulation goes on: a frame may be left out, and so may all while the server is
          * away. */

@@ -27,8 +27,7 @@ std::vector<double> ticks(const ValueRange& range, std::size_t most) {
         const double last = std::floor(range.high / step + 1e-9);
         if (last - first >= static_cast<double>(most)) continue;
         std::vector<double> found;
-        const auto steps = static_cast<int>(last - first);
-        for (int i = 0; i <= steps; ++i) found.push_back((first + i) * step);
+        for (int i = 0; first + i <= last; ++i) found.push_back((first + i) * step);
         return found;
     }
     return {};

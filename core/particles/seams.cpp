@@ -14,17 +14,17 @@ BrickCoordinate as_array(const Int3& c) {
     return {c.x, c.y, c.z};
 }
 
-bool comes_before(const Seam& a, const Seam& b) {
-    const auto key = [](const BrickCoordinate& c) { return brick_key({c[0], c[1], c[2]}); };
-    return key(a.first) != key(b.first) ? key(a.first) < key(b.first) : key(a.second) < key(b.second);
-}
-
 /// bricks times the cells of one, within what the lattice can address and the overlap can add.
 Int3 base_cells(const BrickCoordinate& bricks) {
     return {bricks[0] * brick_size, bricks[1] * brick_size, bricks[2] * brick_size};
 }
 
 }  // namespace
+
+bool comes_before(const Seam& a, const Seam& b) {
+    const auto key = [](const BrickCoordinate& c) { return brick_key({c[0], c[1], c[2]}); };
+    return key(a.first) != key(b.first) ? key(a.first) < key(b.first) : key(a.second) < key(b.second);
+}
 
 std::vector<Seam> seams_of(const LatticePart& part, std::span<const std::uint64_t> keys,
                            std::span<const WordHash> hashes) {

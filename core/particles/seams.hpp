@@ -12,6 +12,8 @@
 
 namespace meniscus {
 
+/// The order of a part's seams: by first, then by second.
+bool comes_before(const Seam& a, const Seam& b);
 /// keys: brick_key of each stored brick, ascending. hashes: of each, towards each of its neighbor slots.
 std::vector<Seam> seams_of(const LatticePart& part, std::span<const std::uint64_t> keys,
                            std::span<const WordHash> hashes);

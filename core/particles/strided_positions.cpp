@@ -1,6 +1,5 @@
 #include "meniscus/strided_positions.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -77,22 +76,10 @@ Number number_at(const std::byte* place) {
     throw InvalidInput(what.str());
 }
 
-/// Writes every third number from `out` on. Returns whether float32 holds all of them. Without a branch, for vectors of
-/// them.
-template <class Number>
-bool copy_axis(const std::byte* first, std::size_t stride, std::size_t count, float* out) {
-    unsigned misfits = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto value = static_cast<float>(number_at<Number>(first + i * stride));
-        out[3 * i] = value;
-        misfits |= static_cast<unsigned>(!is_position(value));
-    }
-    return misfits == 0;
-}
-
-/// As many as `out` has, that lie next to each other.
-template <class Number>
-bool copy_row(const std::byte* row, std::span<float> out) {
+/// Converts numbers that lie next to each other. Returns whether float32 holds all of them. Without a branch, for
+/// vectors of them.
+template <class Number, std::size_t count>
+bool copy_row(const std::byte* row, std::span<float, count> out) {
     unsigned misfits = 0;
     for (std::size_t i = 0; i < out.size(); ++i) {
         out[i] = static_cast<float>(number_at<Number>(row + i * sizeof(Number)));
@@ -101,22 +88,31 @@ bool copy_row(const std::byte* row, std::span<float> out) {
     return misfits == 0;
 }
 
-/// Particles whose axes are copied one after the other: what is read and written of them stays in the nearest cache.
-constexpr std::size_t block = 512;
+/// Likewise x y z that lie apart.
+template <class Number>
+bool copy_axes(const Places& first, std::size_t stride, std::span<float> out) {
+    unsigned misfits = 0;
+    for (std::size_t i = 0; i < out.size() / 3; ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto value = static_cast<float>(number_at<Number>(first[axis] + i * stride));
+            out[3 * i + axis] = value;
+            misfits |= static_cast<unsigned>(!is_position(value));
+        }
+    return misfits == 0;
+}
 
 template <class Number>
 void copy_numbers(const Places& first, std::size_t stride, std::span<float> positions) {
-    const std::size_t count = positions.size() / 3;
     bool all_fit = true;
-    if (stride == 3 * sizeof(Number) && first == places_from(reinterpret_cast<const Number*>(first[0])))
+    if (first != places_from(reinterpret_cast<const Number*>(first[0])))
+        all_fit = copy_axes<Number>(first, stride, positions);
+    else if (stride == 3 * sizeof(Number))
         all_fit = copy_row<Number>(first[0], positions);
     else
-        for (std::size_t i = 0; i < count; i += block)
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                all_fit &= copy_axis<Number>(first[axis] + i * stride, stride, std::min(block, count - i),
-                                             positions.data() + 3 * i + axis);
+        for (std::size_t i = 0; i < positions.size() / 3; ++i)
+            all_fit &= copy_row<Number>(first[0] + i * stride, positions.subspan(3 * i).first<3>());
     if (all_fit) return;
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < positions.size() / 3; ++i)
         for (std::size_t axis = 0; axis < 3; ++axis)
             if (const auto number = number_at<Number>(first[axis] + i * stride);
                 !is_position(static_cast<float>(number)))

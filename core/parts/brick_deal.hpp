@@ -7,29 +7,39 @@
 #include <vector>
 
 #include "meniscus/brick_box.hpp"
+#include "meniscus/particle_frame.hpp"
+#include "meniscus/settings.hpp"
 
 namespace meniscus {
 
 /// Particles of a process in a brick.
-struct RankLoad {
+struct BrickLoad {
     BrickCoordinate brick{};
     std::uint32_t rank = 0;
     std::uint64_t particles = 0;
+    bool operator==(const BrickLoad&) const = default;
 };
+/// The bricks that hold particles of a valid frame of a process, by (z, y, x). each_stands_for: of each of such groups
+/// of particles one is looked at, in a place that the group's number gives; at least 1.
+std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& settings, std::uint32_t rank = 0,
+                                   std::size_t each_stands_for = 1);
 
 struct BrickDeal {
     std::vector<BrickBox> boxes;    ///< of the parts
-    std::vector<RankLoad> loads;    ///< those in the first box, then those in the next
+    std::vector<BrickLoad> loads;   ///< those in the first box, then those in the next
     std::vector<std::size_t> ends;  ///< where in `loads` those of each part end
 
-    std::span<const RankLoad> loads_of(std::size_t part) const {
+    std::span<const BrickLoad> loads_of(std::size_t part) const {
         const std::size_t begin = part == 0 ? 0 : ends[part - 1];
         return std::span(loads).subspan(begin, ends[part] - begin);
     }
 };
 
-/// As deal_bricks().
-BrickDeal deal_loads(std::vector<RankLoad> loads, std::size_t parts);
+/// Deals all bricks to parts: boxes that fill space, made by cutting boxes in two between bricks. Each cut is where the
+/// side with more to do for each of its parts has least: its particles, and half of those in the layer of bricks beyond
+/// the cut, of which it needs some. The same for the same loads, in whatever order. parts: 1 to max_parts, else throws
+/// InvalidInput; there are fewer boxes where a brick would have several.
+BrickDeal deal_bricks(std::vector<BrickLoad> loads, std::size_t parts);
 
 /// The rank that makes each part. Each maker has as many as the others, or one more. Parts are given away by the number
 /// of particles that a maker has in one, the greatest first; what is left over goes to makers with fewer than they must

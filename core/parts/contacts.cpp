@@ -5,8 +5,8 @@
 #include <array>
 #include <utility>
 
-#include "lattice/brick_grid.hpp"
 #include "meniscus/error.hpp"
+#include "particles/seams.hpp"
 #include "parts/message.hpp"
 
 namespace meniscus {
@@ -45,21 +45,15 @@ bool touch(const BrickBox& a, const BrickBox& b) {
     return true;
 }
 
-/// Ascending in a part's seams.
-auto place_of(const Seam& seam) {
-    const auto key = [](const BrickCoordinate& b) { return brick_key({b[0], b[1], b[2]}); };
-    return std::pair(key(seam.first), key(seam.second));
-}
-
 std::uint64_t count_unequal(std::span<const Seam> some, std::span<const Seam> others) {
     std::uint64_t count = 0;
     auto a = some.begin();
     auto b = others.begin();
     while (a != some.end() && b != others.end()) {
-        const auto place_a = place_of(*a), place_b = place_of(*b);
-        if (place_a != place_b || a->hash != b->hash) ++count;
-        if (place_a <= place_b) ++a;
-        if (place_b <= place_a) ++b;
+        const bool is_first = comes_before(*a, *b), is_second = comes_before(*b, *a);
+        if (is_first || is_second || a->hash != b->hash) ++count;
+        if (!is_second) ++a;
+        if (!is_first) ++b;
     }
     return count + static_cast<std::uint64_t>((some.end() - a) + (others.end() - b));
 }
@@ -82,14 +76,14 @@ PartBorder::PartBorder(std::size_t part, std::span<const Seam> seams, const Mesh
     }
 }
 
-void write_contacts(const Borders& borders, const std::function<std::size_t(std::uint64_t)>& rank_of,
+void write_contacts(const Borders& borders, std::span<const std::size_t> rank_of,
                     std::vector<PartExchange::Bytes>& to) {
     std::vector<MessageWriter> messages;
     for (PartExchange::Bytes& bytes : to) messages.emplace_back(std::move(bytes));
     for (const auto& [part, border] : borders)
         for (auto at = border.touches.upper_bound(part); at != border.touches.end(); ++at) {
             const auto& [other, contact] = *at;
-            MessageWriter& message = messages[rank_of(other)];
+            MessageWriter& message = messages[rank_of[other]];
             message.add(part);
             message.add(other);
             message.add_all(std::span<const Seam>(contact.seams));
@@ -102,13 +96,15 @@ ComparedContacts compare_contacts(const Borders& borders, std::span<const PartEx
     ComparedContacts compared;
     std::map<std::uint64_t, std::vector<bool>> is_repeated;
     for (const auto& [part, border] : borders) is_repeated[part].resize(border.vertices.size());
+    std::vector<Seam> seams;
+    std::vector<LatticePosition> vertices;
     for (const PartExchange::Bytes& bytes : messages)
         for (MessageReader message(bytes); !message.is_at_end();) {
             const auto other = message.get<std::uint64_t>();
             const auto part = message.get<std::uint64_t>();
-            std::vector<Seam> seams;
+            seams.clear();
             message.append_to(seams);
-            std::vector<LatticePosition> vertices;
+            vertices.clear();
             message.append_to(vertices);
             const auto found = borders.find(part);
             if (found == borders.end() || !found->second.touches.contains(other))
@@ -118,8 +114,8 @@ ComparedContacts compare_contacts(const Borders& borders, std::span<const PartEx
             const PartBorder& border = found->second;
             const Contact& contact = border.touches.at(other);
             if (const std::uint64_t unequal = count_unequal(contact.seams, seams); unequal != 0) {
-                compared.unequal_seams += unequal;
-                compared.unequal_parts.insert(compared.unequal_parts.end(), {other, part});
+                compared.unequal.count += unequal;
+                compared.unequal.parts.insert(compared.unequal.parts.end(), {other, part});
             }
             auto its = vertices.begin();
             for (const std::uint32_t v : contact.vertices) {

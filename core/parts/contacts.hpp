@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <span>
 #include <vector>
@@ -32,15 +31,19 @@ struct PartBorder {
 /// The borders of a process's parts, by number.
 using Borders = std::map<std::uint64_t, PartBorder>;
 
-/// Writes what each part has at those of greater numbers: to[r] is the message to rank r. rank_of: of a part's number.
-/// The memory of `to` is used again.
-void write_contacts(const Borders& borders, const std::function<std::size_t(std::uint64_t)>& rank_of,
-                    std::vector<PartExchange::Bytes>& to);
+/// Writes what each part has at those of greater numbers: to[r] is the message to rank r. rank_of: each part's. The
+/// memory of `to` is used again.
+void write_contacts(const Borders& borders, std::span<const std::size_t> rank_of, std::vector<PartExchange::Bytes>& to);
+
+/// Seams that differ, or that one of both parts alone has.
+struct UnequalSeams {
+    std::uint64_t count = 0;
+    std::vector<std::size_t> parts;  ///< those on both sides of them; some several times
+};
 
 /// What a process finds of its parts and those of lesser numbers that touch them.
 struct ComparedContacts {
-    std::uint64_t unequal_seams = 0;                  ///< that differ, or that one of both parts alone has
-    std::vector<std::uint64_t> unequal_parts;         ///< those on both sides of them; some several times
+    UnequalSeams unequal;
     std::map<std::uint64_t, std::uint64_t> repeated;  ///< of each part, vertices that one of a lesser number has, too
 };
 /// messages: from all ranks, by write_contacts(). Throws InvalidInput for messages of processes that do not deal alike.

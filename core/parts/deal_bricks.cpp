@@ -15,11 +15,11 @@
 namespace meniscus {
 namespace {
 
-using Loads = std::span<RankLoad>;
+using Loads = std::span<BrickLoad>;
 
-std::uint64_t particles_of(std::span<const RankLoad> loads) {
+std::uint64_t particles_of(std::span<const BrickLoad> loads) {
     std::uint64_t particles = 0;
-    for (const RankLoad& load : loads) particles += load.particles;
+    for (const BrickLoad& load : loads) particles += load.particles;
     return particles;
 }
 
@@ -37,24 +37,24 @@ struct Layer {
 };
 
 /// Those with particles, ascending.
-std::vector<Layer> layers_of(std::span<const RankLoad> loads, std::size_t axis) {
+std::vector<Layer> layers_of(std::span<const BrickLoad> loads, std::size_t axis) {
     std::vector<Layer> layers;
     if (loads.empty()) return layers;
-    const auto by_axis = [axis](const RankLoad& a, const RankLoad& b) { return a.brick[axis] < b.brick[axis]; };
+    const auto by_axis = [axis](const BrickLoad& a, const BrickLoad& b) { return a.brick[axis] < b.brick[axis]; };
     const auto [low, high] = std::minmax_element(loads.begin(), loads.end(), by_axis);
     const std::int32_t first = low->brick[axis];
-    const auto place_of = [&](const RankLoad& load) { return static_cast<std::size_t>(load.brick[axis] - first); };
+    const auto place_of = [&](const BrickLoad& load) { return static_cast<std::size_t>(load.brick[axis] - first); };
     // A table where they lie close together: sorting takes longer than all else of the deal.
     if (const std::size_t places = place_of(*high) + 1; places <= 4 * loads.size()) {
         layers.resize(places);
-        for (const RankLoad& load : loads) {
+        for (const BrickLoad& load : loads) {
             Layer& layer = layers[place_of(load)];
             layer = {load.brick[axis], layer.particles + static_cast<double>(load.particles)};
         }
         std::erase_if(layers, [](const Layer& layer) { return layer.particles == 0.0; });
         return layers;
     }
-    for (const RankLoad& load : loads) layers.push_back({load.brick[axis], static_cast<double>(load.particles)});
+    for (const BrickLoad& load : loads) layers.push_back({load.brick[axis], static_cast<double>(load.particles)});
     std::sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.at < b.at; });
     std::size_t last = 0;
     for (std::size_t i = 1; i < layers.size(); ++i)
@@ -67,7 +67,7 @@ std::vector<Layer> layers_of(std::span<const RankLoad> loads, std::size_t axis) 
 }
 
 /// The best of the cuts along an axis through bricks with particles. below, above: numbers of parts on either side.
-Cut best_cut(std::span<const RankLoad> loads, const BrickBox& box, std::size_t axis, double below, double above) {
+Cut best_cut(std::span<const BrickLoad> loads, const BrickBox& box, std::size_t axis, double below, double above) {
     const std::vector<Layer> layers = layers_of(loads, axis);
     const auto all = static_cast<double>(particles_of(loads));
     Cut best{axis};
@@ -117,8 +117,8 @@ void deal(BrickDeal& to, std::size_t first, std::size_t last, const BrickBox& bo
         if (other.cost < cut.cost) cut = other;
     }
     if (loads.empty() || cut.cost == std::numeric_limits<double>::infinity()) cut = middle_cut(box);
-    const auto above =
-        std::partition(loads.begin(), loads.end(), [&](const RankLoad& load) { return load.brick[cut.axis] < cut.at; });
+    const auto above = std::partition(loads.begin(), loads.end(),
+                                      [&](const BrickLoad& load) { return load.brick[cut.axis] < cut.at; });
     const std::size_t middle = first + static_cast<std::size_t>(above - loads.begin());
     BrickBox low = box, high = box;
     low.high[cut.axis] = high.low[cut.axis] = cut.at;
@@ -128,7 +128,8 @@ void deal(BrickDeal& to, std::size_t first, std::size_t last, const BrickBox& bo
 
 }  // namespace
 
-std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& settings, std::size_t each_stands_for) {
+std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& settings, std::uint32_t rank,
+                                   std::size_t each_stands_for) {
     const PositionsView positions = positions_view(frame, units_per_cell / world_cell_size(settings));
     constexpr auto edge = static_cast<std::uint64_t>(units_per_base_cell * brick_size);
     static_assert(std::has_single_bit(edge));
@@ -145,27 +146,21 @@ std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& s
     std::vector<BrickCounts::Count> all = counts.take();
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
     std::vector<BrickLoad> loads;
+    loads.reserve(all.size());
     for (const BrickCounts::Count& count : all) {
         const Int3 at = brick_coordinate(count.key);
-        loads.push_back({{at.x, at.y, at.z}, count.particles});
+        loads.push_back({{at.x, at.y, at.z}, rank, count.particles});
     }
     return loads;
 }
 
-BrickDeal deal_loads(std::vector<RankLoad> loads, std::size_t parts) {
+BrickDeal deal_bricks(std::vector<BrickLoad> loads, std::size_t parts) {
     if (parts < 1 || parts > max_parts)
         throw InvalidInput("the parts are " + std::to_string(parts) + ", must be 1 to " + std::to_string(max_parts));
     BrickDeal dealt;
     dealt.loads = std::move(loads);
     deal(dealt, 0, dealt.loads.size(), all_bricks, parts);
     return dealt;
-}
-
-std::vector<BrickBox> deal_bricks(std::span<const BrickLoad> loads, std::size_t parts) {
-    std::vector<RankLoad> of_one;
-    of_one.reserve(loads.size());
-    for (const BrickLoad& load : loads) of_one.push_back({load.brick, 0, load.particles});
-    return deal_loads(std::move(of_one), parts).boxes;
 }
 
 }  // namespace meniscus

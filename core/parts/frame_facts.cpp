@@ -18,7 +18,7 @@ PartExchange::Bytes packed(const FrameFacts& facts) {
         message.add(array.type);
         message.add(array.components);
     }
-    message.add_all(std::span<const RankLoad>(facts.loads));
+    message.add_all(std::span<const BrickLoad>(facts.loads));
     message.add(static_cast<std::uint64_t>(facts.ranges.size()));
     for (const ArrayRange& range : facts.ranges) {
         message.add_text(range.name);

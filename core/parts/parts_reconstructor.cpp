@@ -44,7 +44,7 @@ public:
     Impl(const Settings& settings, const BackendOptions& backend, const PartsOptions& options, PartExchange& exchange)
         : settings_(settings), options_(options), agreement_(exchange), choice_(settings) {
         validate(settings);
-        deal_loads({}, options.parts);
+        deal_bricks({}, options.parts);
         FramePart part;
         part.overlap = options.overlap;
         validate(part);
@@ -59,11 +59,11 @@ public:
             reconstructor_.emplace(settings, backend);
     }
 
-    enum class Making { at_once, beside_a_simulation };
+    enum class Pace { at_once, beside_a_simulation };
 
-    void begin(const FrameGiver& give, Making making) {
+    void begin(const FrameGiver& give, Pace pace) {
         start_ = std::chrono::steady_clock::now();
-        making_ = making;
+        pace_ = pace;
         const auto of_ranks = agreement_.gather([&] {
             HandedFrame handed = give();
             // As a Reconstructor does, which passes over arrays that the frames before did not bring.
@@ -80,9 +80,9 @@ public:
             facts_ = facts_together(of_ranks);
             // All processes hold the next frames against the same arrays, also one that has brought none.
             choice_.keep(facts_.form.without_values());
-            const BrickDeal deal = deal_loads(std::move(facts_.loads), options_.parts);
-            own_ = deal.boxes;
+            BrickDeal deal = deal_bricks(std::move(facts_.loads), options_.parts);
             rank_of_ = deal_parts(deal, options_.makers);
+            own_ = std::move(deal.boxes);
             overlaps_.assign(own_.size(), options_.overlap);
             told_ = {};
             borders_.clear();
@@ -105,7 +105,7 @@ public:
                 particles_.add(bytes);
                 // The frames of a simulation follow each other in the same memory: new pages cost more than copies.
                 // (`bytes = {}` would keep the memory.)
-                if (making_ == Making::at_once) PartExchange::Bytes().swap(bytes);
+                if (pace_ == Pace::at_once) PartExchange::Bytes().swap(bytes);
             }
             make_one(mine_to_make_[turn_], particles_.frame(), sink);
         } catch (...) {
@@ -154,10 +154,9 @@ private:
         facts.form = FrameForm(mine);
         facts.by_level = count_levels(mine);
         // One frame may have parts by the hundred, and the largest decides how much memory it takes: all count there.
-        const std::size_t group = making_ == Making::at_once ? 1 : mine.count() / particles_for_deal;
-        const auto rank = static_cast<std::uint32_t>(agreement_.rank());
-        for (const BrickLoad& load : brick_loads(mine, settings_, std::max<std::size_t>(group, 1)))
-            facts.loads.push_back({load.brick, rank, load.particles});
+        const std::size_t group = pace_ == Pace::at_once ? 1 : mine.count() / particles_for_deal;
+        facts.loads = brick_loads(mine, settings_, static_cast<std::uint32_t>(agreement_.rank()),
+                                  std::max<std::size_t>(group, 1));
         facts.ranges = array_ranges(mine, settings_);
         return facts;
     }
@@ -189,7 +188,7 @@ private:
                     to_[rank].clear();
             }
         });
-        if (making_ == Making::at_once) to_.clear();
+        if (pace_ == Pace::at_once) to_.clear();
     }
 
     FramePart part(std::size_t number) const { return {own_[number], overlaps_[number], facts_.ranges}; }
@@ -216,19 +215,20 @@ private:
         agreement_.all_to_all(to_touching_, from_touching_, [&] {
             rethrow_error();
             to_touching_.resize(agreement_.ranks());
-            write_contacts(
-                borders_, [this](std::uint64_t part) { return rank_of_[part]; }, to_touching_);
+            write_contacts(borders_, rank_of_, to_touching_);
         });
         std::vector<PartExchange::Bytes> told = agreement_.gather([&] {
             told_.take(compare_contacts(borders_, from_touching_));
             return told_.packed();
         });
         agreement_.agree([&] {
-            PartsTold all;
-            for (const PartExchange::Bytes& message : told) all.add_unequal(message);
+            UnequalSeams unequal;
+            for (const PartExchange::Bytes& message : told) PartsTold::add_unequal(message, unequal);
             report_.parts_made += wanted_.size();
-            report_.unequal_seams += all.unequal_seams;
-            wanted_.assign(all.unequal_parts.begin(), all.unequal_parts.end());
+            report_.unequal_seams += unequal.count;
+            wanted_ = std::move(unequal.parts);
+            std::sort(wanted_.begin(), wanted_.end());
+            wanted_.erase(std::unique(wanted_.begin(), wanted_.end()), wanted_.end());
             for (const std::size_t part : wanted_) {
                 // Such a part has settled the whole frame.
                 if (overlaps_[part] == max_overlap)
@@ -275,7 +275,7 @@ private:
     std::chrono::steady_clock::time_point start_;
     PartParticles kept_;
     ParticleFrame mine_;  ///< borrows from the caller, and from what is kept
-    Making making_ = Making::at_once;
+    Pace pace_ = Pace::at_once;
     ParticlesNear near_;
     FrameFacts facts_;
     std::vector<BrickBox> own_;
@@ -308,14 +308,14 @@ PartsReconstructor::PartsReconstructor(const Settings& settings, const BackendOp
 PartsReconstructor::~PartsReconstructor() = default;
 
 PartsReport PartsReconstructor::reconstruct(const ParticleFrame& mine, const PartSink& sink) {
-    impl_->begin([&mine] { return HandedFrame(mine, true, true); }, Impl::Making::at_once);
+    impl_->begin([&mine] { return HandedFrame(mine, true, true); }, Impl::Pace::at_once);
     do make(sink);
     while (go_on());
     return report();
 }
 
 void PartsReconstructor::begin(const FrameGiver& mine) {
-    impl_->begin(mine, Impl::Making::beside_a_simulation);
+    impl_->begin(mine, Impl::Pace::beside_a_simulation);
 }
 
 void PartsReconstructor::make(const PartSink& sink) noexcept {

@@ -4,7 +4,17 @@
 #include <cstddef>
 #include <span>
 
+#include "parts/message.hpp"
+
 namespace meniscus {
+namespace {
+
+void add_unequal(MessageReader& message, UnequalSeams& unequal) {
+    unequal.count += message.get<std::uint64_t>();
+    message.append_to(unequal.parts);
+}
+
+}  // namespace
 
 void PartsTold::take(std::uint64_t part, const MadePart& figures, const Mesh& mesh) {
     std::erase_if(made, [part](const MadePart& other) { return other.number == part; });
@@ -15,15 +25,14 @@ void PartsTold::take(std::uint64_t part, const MadePart& figures, const Mesh& me
 }
 
 void PartsTold::take(const ComparedContacts& compared) {
-    unequal_seams = compared.unequal_seams;
-    unequal_parts = compared.unequal_parts;
+    unequal = compared.unequal;
     for (MadePart& part : made) part.own_vertices = part.vertices - compared.repeated.at(part.number);
 }
 
 PartExchange::Bytes PartsTold::packed() const {
     MessageWriter message;
-    message.add(unequal_seams);
-    message.add_all(std::span<const std::uint64_t>(unequal_parts));
+    message.add(unequal.count);
+    message.add_all(std::span<const std::size_t>(unequal.parts));
     message.add_all(std::span<const MadePart>(made));
     message.add_all(std::span<const PartRange>(ranges));
     return message.take();
@@ -31,21 +40,14 @@ PartExchange::Bytes PartsTold::packed() const {
 
 void PartsTold::add(const PartExchange::Bytes& bytes) {
     MessageReader message(bytes);
-    add_unequal(message);
+    meniscus::add_unequal(message, unequal);
     message.append_to(made);
     message.append_to(ranges);
 }
 
-void PartsTold::add_unequal(const PartExchange::Bytes& bytes) {
+void PartsTold::add_unequal(const PartExchange::Bytes& bytes, UnequalSeams& unequal) {
     MessageReader message(bytes);
-    add_unequal(message);
-}
-
-void PartsTold::add_unequal(MessageReader& message) {
-    unequal_seams += message.get<std::uint64_t>();
-    message.append_to(unequal_parts);
-    std::sort(unequal_parts.begin(), unequal_parts.end());
-    unequal_parts.erase(std::unique(unequal_parts.begin(), unequal_parts.end()), unequal_parts.end());
+    meniscus::add_unequal(message, unequal);
 }
 
 MadePart PartsTold::sum() const {

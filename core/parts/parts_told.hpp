@@ -8,7 +8,6 @@
 #include "meniscus/parts.hpp"
 #include "parts/contacts.hpp"
 #include "parts/made_part.hpp"
-#include "parts/message.hpp"
 
 namespace meniscus {
 
@@ -20,8 +19,7 @@ struct PartRange {
 };
 
 struct PartsTold {
-    std::uint64_t unequal_seams = 0;
-    std::vector<std::uint64_t> unequal_parts;  ///< those on both sides of these; some several times
+    UnequalSeams unequal;
     std::vector<MadePart> made;
     std::vector<PartRange> ranges;
 
@@ -32,17 +30,14 @@ struct PartsTold {
     PartExchange::Bytes packed() const;
     /// Takes what a process tells, packed.
     void add(const PartExchange::Bytes& message);
-    /// Takes of it the seams that differ alone: unequal_parts are ascending then, each once.
-    void add_unequal(const PartExchange::Bytes& message);
+    /// Takes of it the seams that differ alone.
+    static void add_unequal(const PartExchange::Bytes& message, UnequalSeams& unequal);
 
     MadePart sum() const;
     /// Of each part, the vertices that no part before it has.
     std::vector<std::uint64_t> own_vertices() const;
     /// Of each attribute over all vertices; none without vertices.
     std::vector<AttributeRange> whole_ranges() const;
-
-private:
-    void add_unequal(MessageReader& message);
 };
 
 }  // namespace meniscus

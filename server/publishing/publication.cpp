@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "conversion/settings_conversion.hpp"
 #include "files/publication_format.hpp"
@@ -127,10 +126,10 @@ void Publication::end_segment(Clock::time_point now) {
     segments_.push_back({.entry = std::move(built.entry), .file = std::move(file)});
     change_manifest();
     const auto first = std::ranges::find_if(segments_, &Segment::is_listed);
-    std::vector<double> seconds;
-    for (auto listed = first; listed != segments_.end(); ++listed) seconds.push_back(listed->entry.seconds());
-    const std::size_t old = files::segments_beyond(seconds, keep_seconds_, [](double each) { return each; });
-    for (std::size_t i = 0; i < old; ++i) leave(first[static_cast<std::ptrdiff_t>(i)], now);
+    const auto listed = [first](std::size_t i) -> Segment& { return first[static_cast<std::ptrdiff_t>(i)]; };
+    const std::size_t old = files::segments_beyond(static_cast<std::size_t>(segments_.end() - first), keep_seconds_,
+                                                   [&](std::size_t i) { return listed(i).entry.seconds(); });
+    for (std::size_t i = 0; i < old; ++i) leave(listed(i), now);
 }
 
 void Publication::end(std::uint64_t turn, Clock::time_point now) {

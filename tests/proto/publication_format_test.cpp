@@ -17,7 +17,7 @@ namespace meniscus::files::test {
 namespace {
 
 std::size_t beyond(const std::vector<double>& seconds, std::optional<double> keep) {
-    return segments_beyond(seconds, keep, [](double each) { return each; });
+    return segments_beyond(seconds.size(), keep, [&](std::size_t i) { return seconds[i]; });
 }
 
 TEST(PublicationWindow, HasTheNewestSecondsWholeAndNoMore) {

@@ -1,11 +1,13 @@
 #include "particles.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "meniscus/error.hpp"
 #include "sized_struct.hpp"
@@ -18,22 +20,28 @@ bool has_axes(const Number* const (&axes)[3]) {
     return axes[0] != nullptr || axes[1] != nullptr || axes[2] != nullptr;
 }
 
+void require_one_kind_of_positions(const meniscus_particles& given) {
+    const std::array<std::pair<const char*, bool>, 4> kinds{{{"positions", given.positions != nullptr},
+                                                             {"positions_double", given.positions_double != nullptr},
+                                                             {"axes", has_axes(given.axes)},
+                                                             {"axes_double", has_axes(given.axes_double)}}};
+    const auto is_set = [](const auto& kind) { return kind.second; };
+    const auto* const first = std::find_if(kinds.begin(), kinds.end(), is_set);
+    const auto* const second = first == kinds.end() ? first : std::find_if(first + 1, kinds.end(), is_set);
+    if (first != kinds.end() && second == kinds.end()) return;
+    const std::string what =
+        first == kinds.end() ? "particles->positions, positions_double, axes and axes_double are all NULL"
+                             : std::string("particles->") + first->first + " and " + second->first + " are both set";
+    throw InvalidInput(what + ", must be one of them, for " + std::to_string(given.count) + " particles");
+}
+
 /// The struct itself, once it makes sense.
 meniscus_particles checked(const meniscus_particles* particles) {
     const meniscus_particles given = read_struct(particles, "particles");
     constexpr std::size_t most = std::numeric_limits<std::ptrdiff_t>::max() / (3 * sizeof(double));
     if (given.count > most)
         throw InvalidInput("particles->count is " + std::to_string(given.count) + ", more than memory can hold");
-    std::vector<std::string> set;
-    if (given.positions != nullptr) set.emplace_back("positions");
-    if (given.positions_double != nullptr) set.emplace_back("positions_double");
-    if (has_axes(given.axes)) set.emplace_back("axes");
-    if (has_axes(given.axes_double)) set.emplace_back("axes_double");
-    if (given.count != 0 && set.size() != 1)
-        throw InvalidInput(
-            (set.empty() ? std::string("particles->positions, positions_double, axes and axes_double are all NULL")
-                         : "particles->" + set[0] + " and " + set[1] + " are both set") +
-            ", must be one of them, for " + std::to_string(given.count) + " particles");
+    if (given.count != 0) require_one_kind_of_positions(given);
     return given;
 }
 

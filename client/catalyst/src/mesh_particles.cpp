@@ -128,7 +128,7 @@ void MeshParticles::read_positions(const Node& values) {
     if (particles_.count == 0) return;
     const bool all_float = std::ranges::all_of(axes, [](const Numbers& a) { return a.type == NumberType::float32; });
     const std::size_t bytes = all_float ? sizeof(float) : sizeof(double);
-    // A stride from one number on is one of the C interface.
+    // As the C interface takes axes: strides of one number or more.
     const bool alike = std::ranges::all_of(axes, [&](const Numbers& axis) {
         return axis.type == axes[0].type && axis.stride == axes[0].stride &&
                axis.stride >= static_cast<std::ptrdiff_t>(bytes);

@@ -143,8 +143,8 @@ private:
     /// Leaves segments out of the manifest that are older than the seconds that are kept.
     void drop_old() {
         if (!options_.keep_seconds) return;
-        const std::size_t first = files::segments_beyond(
-            info_.segments, options_.keep_seconds, [](const PublishedSegment& segment) { return segment.seconds; });
+        const std::size_t first = files::segments_beyond(info_.segments.size(), options_.keep_seconds,
+                                                         [this](std::size_t i) { return info_.segments[i].seconds; });
         for (std::size_t i = 0; i < first; ++i) {
             const PublishedSegment& segment = info_.segments[i];
             info_.left_frames += segment.frames;

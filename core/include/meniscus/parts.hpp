@@ -19,22 +19,6 @@
 
 namespace meniscus {
 
-/// A brick, and the number of particles in it.
-struct BrickLoad {
-    BrickCoordinate brick{};
-    std::uint64_t particles = 0;
-    bool operator==(const BrickLoad&) const = default;
-};
-/// The bricks that hold particles of a valid frame, by (z, y, x). each_stands_for: of each of such groups of particles
-/// one is looked at, in a place that the group's number gives; at least 1.
-std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& settings,
-                                   std::size_t each_stands_for = 1);
-
-/// Deals all bricks to parts: boxes that fill space, made by cutting boxes in two between bricks. Each cut is where the
-/// side with more to do for each of its parts has least: its particles, and half of those in the layer of bricks beyond
-/// the cut, of which it needs some. The same for the same loads, in whatever order. parts: 1 to max_parts; there are
-/// fewer boxes where a brick would have several.
-std::vector<BrickBox> deal_bricks(std::span<const BrickLoad> loads, std::size_t parts);
 inline constexpr std::size_t max_parts = 65536;
 
 /// What the processes that make one surface tell each other. All of them call the same functions in the same order.
@@ -76,7 +60,8 @@ struct FinishedPart {
     const Statistics& statistics;
 };
 using PartSink = std::function<void(const FinishedPart&)>;
-/// A frame that stays for the time of the call. What stays until the next frame is asked for is not copied.
+/// A frame that stays for the time of the call; by itself nothing of it does longer. What stays until the next frame is
+/// asked for is not copied.
 struct HandedFrame {
     ParticleFrame frame;
     bool positions_stay = false;

@@ -3,6 +3,7 @@
 
 #include "meniscus/meniscus.hpp"
 #include "particles/seams.hpp"
+#include "parts/brick_deal.hpp"
 #include "pipeline/backend.hpp"
 #include "support/parts.hpp"
 #include "support/same_bytes.hpp"
@@ -18,7 +19,7 @@ public:
                                              std::make_shared<MemoryAccount>(0, "on the GPU"))) {}
 
     void expect_the_cpus_parts(const ParticleFrame& frame, std::size_t parts, std::uint32_t overlap) {
-        for (const BrickBox& own : deal_bricks(brick_loads(frame, settings_), parts)) {
+        for (const BrickBox& own : deal_bricks(brick_loads(frame, settings_), parts).boxes) {
             FramePart part;
             part.own = own;
             part.overlap = overlap;

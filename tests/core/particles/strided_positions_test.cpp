@@ -48,7 +48,7 @@ TEST(StridedPositions, AreReadWhereverTheyLie) {
 }
 
 TEST(StridedPositions, AreReadAxisByAxis) {
-    constexpr std::size_t count = 1500;  // more than are copied at once
+    constexpr std::size_t count = 1500;
     std::array<std::vector<double>, 3> axes;
     std::array<std::vector<float>, 3> narrow;
     std::vector<float> expected;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <random>
 
+#include "parts/brick_deal.hpp"
 #include "support/parts.hpp"
 
 namespace meniscus {
@@ -13,7 +14,7 @@ std::vector<BrickLoad> random_loads(unsigned seed, int count) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<std::int32_t> place(-6, 6);
     std::vector<BrickLoad> loads;
-    for (int i = 0; i < count; ++i) loads.push_back({{place(random), place(random), place(random)}, random() % 100});
+    for (int i = 0; i < count; ++i) loads.push_back({{place(random), place(random), place(random)}, 0, random() % 100});
     return loads;
 }
 
@@ -28,7 +29,7 @@ TEST(DealBricks, GivesEachBrickToOnePart) {
     for (const int count : {0, 1, 2, 300})
         for (const std::size_t parts : {1U, 2U, 3U, 7U, 8U, 27U, 100U}) {
             const std::vector<BrickLoad> loads = random_loads(5, count);
-            const std::vector<BrickBox> boxes = deal_bricks(loads, parts);
+            const std::vector<BrickBox> boxes = deal_bricks(loads, parts).boxes;
             ASSERT_LE(boxes.size(), parts);
             if (parts < 30) {
                 ASSERT_EQ(boxes.size(), parts);
@@ -52,25 +53,25 @@ TEST(DealBricks, GivesEachBrickToOnePart) {
 
 TEST(DealBricks, DoesNotDependOnTheOrderOfLoads) {
     std::vector<BrickLoad> loads = random_loads(6, 200);
-    const std::vector<BrickBox> boxes = deal_bricks(loads, 9);
+    const std::vector<BrickBox> boxes = deal_bricks(loads, 9).boxes;
     for (unsigned seed = 0; seed < 5; ++seed) {
         std::shuffle(loads.begin(), loads.end(), std::mt19937(seed));
-        EXPECT_EQ(deal_bricks(loads, 9), boxes);
+        EXPECT_EQ(deal_bricks(loads, 9).boxes, boxes);
     }
 }
 
 TEST(DealBricks, GivesPartsOfACubeTheSame) {
     std::vector<BrickLoad> loads;
-    for (std::int32_t i = 0; i < 8 * 8 * 8; ++i) loads.push_back({{i % 8, i / 8 % 8, i / 64}, 10});
+    for (std::int32_t i = 0; i < 8 * 8 * 8; ++i) loads.push_back({{i % 8, i / 8 % 8, i / 64}, 0, 10});
     for (const std::size_t parts : {2U, 4U, 8U, 64U})
-        for (const BrickBox& box : deal_bricks(loads, parts)) EXPECT_EQ(load_of(box, loads), 5120 / parts);
+        for (const BrickBox& box : deal_bricks(loads, parts).boxes) EXPECT_EQ(load_of(box, loads), 5120 / parts);
 }
 
 TEST(DealBricks, CutsWhereThereIsLittle) {
     // Two blocks of water, three bricks wide each, with a film between.
     std::vector<BrickLoad> loads;
-    for (std::int32_t x = 0; x < 9; ++x) loads.push_back({{x, 0, 0}, x < 3 || x > 5 ? 1000U : 1U});
-    const std::vector<BrickBox> boxes = deal_bricks(loads, 2);
+    for (std::int32_t x = 0; x < 9; ++x) loads.push_back({{x, 0, 0}, 0, x < 3 || x > 5 ? 1000U : 1U});
+    const std::vector<BrickBox> boxes = deal_bricks(loads, 2).boxes;
     EXPECT_GT(boxes[0].high[0], 3);
     EXPECT_LT(boxes[0].high[0], 6);
 }
@@ -95,7 +96,7 @@ TEST(DealBricks, WeighsBricksBySomeOfTheirParticles) {
                 for (const int i : {x, y, z}) particles.positions.push_back(static_cast<float>(i) * 0.1F);
     const Settings settings = test::default_settings();
     const std::vector<BrickLoad> all = brick_loads(particles.frame(), settings);
-    const std::vector<BrickLoad> some = brick_loads(particles.frame(), settings, 40);
+    const std::vector<BrickLoad> some = brick_loads(particles.frame(), settings, 0, 40);
     std::uint64_t count = 0;
     for (const BrickLoad& load : some) count += load.particles;
     EXPECT_EQ(count, particles.count());
@@ -116,12 +117,12 @@ TEST(DealBricks, FindsTheSameCutsFarApart) {
     // Few bricks a long way from each other, and the same places of many.
     std::vector<BrickLoad> far, near;
     for (std::int32_t i = 0; i < 8; ++i) {
-        far.push_back({{1000 * i, 0, 0}, 10});
-        near.push_back({{i, 0, 0}, 10});
+        far.push_back({{1000 * i, 0, 0}, 0, 10});
+        near.push_back({{i, 0, 0}, 0, 10});
     }
     for (const std::size_t parts : {2U, 4U, 8U})
         for (const std::vector<BrickLoad>* const loads : {&far, &near})
-            for (const BrickBox& box : deal_bricks(*loads, parts)) EXPECT_EQ(load_of(box, *loads), 80 / parts);
+            for (const BrickBox& box : deal_bricks(*loads, parts).boxes) EXPECT_EQ(load_of(box, *loads), 80 / parts);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <map>
 #include <random>
 
-#include "meniscus/parts.hpp"
 #include "parts/brick_deal.hpp"
 
 namespace meniscus {
@@ -22,18 +21,18 @@ TEST(DealParts, GivesEachRankTheBoxThatItHas) {
     for (unsigned seed = 0; seed < 5; ++seed) {
         std::shuffle(ranks.begin(), ranks.end(), std::mt19937(seed));
         // The octants of a cube, of which each rank has one and a little of the next one.
-        std::vector<RankLoad> loads;
+        std::vector<BrickLoad> loads;
         for (std::int32_t i = 0; i < 8 * 8 * 8; ++i) {
             const BrickCoordinate brick{i % 8, i / 8 % 8, i / 64};
             const auto octant = static_cast<std::size_t>(brick[0] / 4 + 2 * (brick[1] / 4) + 4 * (brick[2] / 4));
             loads.push_back({brick, ranks[octant], 90});
             loads.push_back({brick, ranks[(octant + 1) % 8], 10});
         }
-        const BrickDeal deal = deal_loads(loads, 8);
+        const BrickDeal deal = deal_bricks(loads, 8);
         const std::vector<std::size_t> rank_of = deal_parts(deal, first_numbers(8));
         for (std::size_t part = 0; part < 8; ++part) {
             std::map<std::size_t, std::uint64_t> particles;
-            for (const RankLoad& load : deal.loads_of(part)) {
+            for (const BrickLoad& load : deal.loads_of(part)) {
                 EXPECT_TRUE(deal.boxes[part].holds(load.brick));
                 particles[load.rank] += load.particles;
             }
@@ -47,14 +46,14 @@ TEST(DealParts, GivesAsManyToEachMakerWhateverTheyHave) {
     for (const std::size_t ranks : {1U, 2U, 5U, 16U})
         for (const std::size_t parts : {1U, 4U, 16U, 23U})
             for (const bool are_there_particles : {true, false}) {
-                std::vector<RankLoad> loads;
+                std::vector<BrickLoad> loads;
                 for (int i = 0; are_there_particles && i < 500; ++i) {
                     const auto place = [&] { return static_cast<std::int32_t>(random() % 20); };
                     // Most of them on few ranks.
                     const auto rank = static_cast<std::uint32_t>(random() % (1 + random() % ranks));
                     loads.push_back({{place(), place(), place()}, rank, 1 + random() % 50});
                 }
-                const BrickDeal deal = deal_loads(loads, parts);
+                const BrickDeal deal = deal_bricks(loads, parts);
                 std::map<std::size_t, std::size_t> parts_of;
                 for (const std::size_t rank : deal_parts(deal, first_numbers(ranks))) ++parts_of[rank];
                 for (std::size_t rank = 0; rank < ranks; ++rank) {
@@ -66,10 +65,10 @@ TEST(DealParts, GivesAsManyToEachMakerWhateverTheyHave) {
 }
 
 TEST(DealParts, CountsRanksWithoutPartsToTheMakerBeforeThem) {
-    std::vector<RankLoad> loads;
+    std::vector<BrickLoad> loads;
     for (std::int32_t x = 0; x < 8; ++x) loads.push_back({{x, 0, 0}, static_cast<std::uint32_t>(7 - x), 10});
     const std::vector<std::size_t> makers{1, 5};
-    EXPECT_EQ(deal_parts(deal_loads(loads, 2), makers), (std::vector<std::size_t>{5, 1}));
+    EXPECT_EQ(deal_parts(deal_bricks(loads, 2), makers), (std::vector<std::size_t>{5, 1}));
 }
 
 }  // namespace

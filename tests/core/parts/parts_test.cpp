@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parts/brick_deal.hpp"
 #include "support/parts.hpp"
 
 namespace meniscus {
@@ -209,7 +210,7 @@ TEST(Parts, HoldNoMessageOncePutTogetherInOneFrame) {
 TEST(Parts, AreDealtByAllParticlesInOneFrame) {
     const Settings settings = test::default_settings();
     const test::Particles particles = test::noise_cube(52, 40'000, 1.0, settings.particle_radius);
-    const std::vector<BrickBox> own = deal_bricks(brick_loads(particles.frame(), settings), 24);
+    const std::vector<BrickBox> own = deal_bricks(brick_loads(particles.frame(), settings), 24).boxes;
     AloneExchange alone;
     PartsReconstructor reconstructor(settings, {Backend::cpu, 1, 0}, {.parts = own.size()}, alone);
     reconstructor.reconstruct(particles.frame(),

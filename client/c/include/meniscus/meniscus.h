@@ -115,12 +115,10 @@ typedef struct meniscus_particles {
     const double* axes_double[3];   /* in place of positions_double; since 0.2 */
 } meniscus_particles;
 
-#define MENISCUS_PARTICLES_INIT                                                            \
-    {                                                                                      \
-        sizeof(meniscus_particles), 0, NULL, NULL, 0, NULL, 0, NULL, {NULL, NULL, NULL}, { \
-            NULL, NULL, NULL                                                               \
-        }                                                                                  \
-    }
+/* clang-format off */
+#define MENISCUS_PARTICLES_INIT \
+    { sizeof(meniscus_particles), 0, NULL, NULL, 0, NULL, 0, NULL, {NULL, NULL, NULL}, {NULL, NULL, NULL} }
+/* clang-format on */
 
 /* ---- Meshes ----------------------------------------------------------------------------------------------------- */
 
