@@ -235,17 +235,31 @@ TEST(Meniscusd, GivesTheSystemBackWhatIdleSessionsGiveBack) {
     EXPECT_LT(resident_bytes(process.pid()), before + 15 * megabyte);
 }
 
-TEST(Meniscusd, ReceivesNoMessageBeforeTheTokenIsKnown) {
+/// The bytes by which a server's memory grows for a call of a caller without a token, with a message of 64 MiB that the
+/// server would take.
+std::size_t growth_without_token(const std::string& method, grpc::StatusCode code) {
     const TestFolder folder;
     Process process(on_free_port({"--tokens", folder.write("tokens", "admin root token-of-root-0123456789\n"),
-                                  "--record", folder / "recordings"}));
+                                  "--record", folder / "recordings", "--max-message-bytes", "65M"}));
     Bomber bomber(process.address());
-    std::size_t before = peak_bytes(process.pid());
+    const std::size_t before = peak_bytes(process.pid());
+    EXPECT_EQ(bomber.throw_at(method, GRPC_COMPRESS_NONE), code) << method;
+    const std::size_t after = peak_bytes(process.pid());
+    process.signal(SIGTERM);
+    process.rest();
+    EXPECT_EQ(process.exit_code(), 0);
+    return std::max(after, before) - before;
+}
+
+TEST(Meniscusd, ReceivesNoMessageBeforeTheTokenIsKnown) {
+    constexpr std::size_t window = std::size_t{16} << 20U;
     const auto expect = [&](const std::string& method, grpc::StatusCode code) {
-        EXPECT_EQ(bomber.throw_at(method, GRPC_COMPRESS_NONE), code) << method;
-        const std::size_t after = peak_bytes(process.pid());
-        EXPECT_LT(after, before + (std::size_t{16} << 20U)) << method;
-        before = after;
+        // HTTP/2's window may be open wide before the refusal has arrived, as the threads' turns have it. A message that
+        // is received is there each time.
+        std::size_t growth = growth_without_token(method, code);
+        for (int others = 0; others < 4 && growth >= window; ++others)
+            growth = std::min(growth, growth_without_token(method, code));
+        EXPECT_LT(growth, window) << method;
     };
     for (const char* method :
          {"ServerService/GetServerInfo", "SessionService/CreateSession", "SessionService/GetSession",
@@ -255,9 +269,6 @@ TEST(Meniscusd, ReceivesNoMessageBeforeTheTokenIsKnown) {
         expect(std::string("/meniscus.v1.") + method, grpc::StatusCode::UNAUTHENTICATED);
     expect("/grpc.health.v1.Health/Check", grpc::StatusCode::OK);
     expect("/meniscus.v1.SessionService/NoCall", grpc::StatusCode::UNIMPLEMENTED);
-    process.signal(SIGTERM);
-    process.rest();
-    EXPECT_EQ(process.exit_code(), 0);
 }
 
 TEST(Meniscusd, DoesNotWaitForAReconstructionThatOutlivesTheGracePeriod) {
