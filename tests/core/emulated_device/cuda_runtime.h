@@ -15,6 +15,9 @@
 #include <source_location>
 #include <tuple>
 #include <type_traits>
+#ifndef __cpp_lib_source_location
+#include <experimental/source_location>
+#endif
 
 #include "faults.hpp"
 
@@ -42,7 +45,12 @@ extern Index thread_index, block_index, block_size, grid_size;
 
 /// The kinds of meetings for which the lanes of a warp, or the threads of a block or grid, wait together.
 enum class Meeting : std::uint8_t { sync_warp, ballot, shuffle, shuffle_up, shuffle_xor, sync_block, sync_grid };
+#ifdef __cpp_lib_source_location
 using Place = std::source_location;
+#else
+// What clang-tidy 14 finds beside this compiler's library.
+using Place = std::experimental::source_location;
+#endif
 
 /// Waits for all threads of the block or grid, which must come to the same place.
 void wait_for_block(Place place);
