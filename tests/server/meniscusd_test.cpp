@@ -254,8 +254,8 @@ std::size_t growth_without_token(const std::string& method, grpc::StatusCode cod
 TEST(Meniscusd, ReceivesNoMessageBeforeTheTokenIsKnown) {
     constexpr std::size_t window = std::size_t{16} << 20U;
     const auto expect = [&](const std::string& method, grpc::StatusCode code) {
-        // HTTP/2's window may be open wide before the refusal has arrived, as the threads' turns have it. A message that
-        // is received is there each time.
+        // HTTP/2's window may be open wide before the refusal has arrived, as the threads' turns have it. A message
+        // that is received is there each time.
         std::size_t growth = growth_without_token(method, code);
         for (int others = 0; others < 4 && growth >= window; ++others)
             growth = std::min(growth, growth_without_token(method, code));

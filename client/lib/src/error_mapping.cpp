@@ -41,10 +41,12 @@ ServerError server_error(const grpc::Status& status, const std::string& address)
         return ServerError("the server at " + address + ": " + message + " (gRPC status " +
                                std::to_string(static_cast<int>(status.error_code())) + ")",
                            ErrorCode::unknown, "UNKNOWN");
-    if (meaning->code == ErrorCode::unavailable)
+    if (meaning->code == ErrorCode::unavailable) {
+        const std::string& reason = message == "keepalive watchdog timeout" ? "it answers nothing" : message;
         return ServerError(
-            "the server at " + address + " is not available (" + message + "): restart meniscusd or check the address",
+            "the server at " + address + " is not available (" + reason + "): restart meniscusd or check the address",
             meaning->code, meaning->name);
+    }
     return ServerError("the server at " + address + ": " + message + " (" + meaning->words + ")", meaning->code,
                        meaning->name);
 }
