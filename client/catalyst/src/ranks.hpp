@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include "meniscus/meniscus.h"
+
 namespace meniscus::catalyst {
 
 /// ranks_mpi.cpp has them by MPI, on the thread that calls; ranks_alone.cpp for one process, without MPI.
@@ -22,6 +24,8 @@ public:
     /// The smallest of what the ranks give, number by number.
     std::array<int, 2> least(std::array<int, 2> numbers) const;
     void wait_for_all() const;
+    /// meniscus_parts_create() for these ranks.
+    meniscus_result open_parts(const meniscus_options& options, meniscus_parts** parts) const;
 
 private:
     struct Communicator;

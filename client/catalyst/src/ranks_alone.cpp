@@ -3,6 +3,7 @@
 #include <string>
 
 #include "meniscus/error.hpp"
+#include "one_rank.hpp"
 #include "ranks.hpp"
 
 namespace meniscus::catalyst {
@@ -41,5 +42,8 @@ std::array<int, 2> Ranks::least(std::array<int, 2> numbers) const {
     return numbers;
 }
 void Ranks::wait_for_all() const {}
+meniscus_result Ranks::open_parts(const meniscus_options& options, meniscus_parts** parts) const {
+    return open_parts_alone(options, parts);
+}
 
 }  // namespace meniscus::catalyst

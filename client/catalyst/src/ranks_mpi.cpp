@@ -1,5 +1,6 @@
-#include <mpi.h>
+#include <meniscus/mpi.h>
 
+#include "one_rank.hpp"
 #include "ranks.hpp"
 
 namespace meniscus::catalyst {
@@ -40,6 +41,10 @@ std::array<int, 2> Ranks::least(std::array<int, 2> numbers) const {
 
 void Ranks::wait_for_all() const {
     if (size_ > 1) MPI_Barrier(communicator_->handle);
+}
+
+meniscus_result Ranks::open_parts(const meniscus_options& options, meniscus_parts** parts) const {
+    return size_ > 1 ? meniscus_parts_create(communicator_->handle, &options, parts) : open_parts_alone(options, parts);
 }
 
 }  // namespace meniscus::catalyst

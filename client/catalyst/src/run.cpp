@@ -1,11 +1,15 @@
 #include "run.hpp"
 
+#include <array>
 #include <exception>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include "meniscus/error.hpp"
 #include "meniscus/quoted.hpp"
+#include "parts_frames.hpp"
+#include "session_frames.hpp"
 
 namespace meniscus::catalyst {
 namespace {
@@ -38,9 +42,15 @@ Run::Run(const Node& params, const char* environment) : ranks_(communicator(para
         if (error != nullptr) std::rethrow_exception(error);
         throw Failure(MENISCUS_FAILED_PRECONDITION, "another rank's options were refused, which says why");
     }
+    // Ranks that make surfaces meet in other calls than those that do not.
+    if (ranks_.least({options_.makes_surfaces ? 1 : 0, options_.makes_surfaces ? 0 : 1}) == std::array{0, 0})
+        throw InvalidInput("option 'reconstruct-ranks' is set on some ranks alone, must be the same on all");
     if (params.at("catalyst/pipelines"))
         notices_.say_once("catalyst/pipelines is passed over: none are run here, particles go to the server");
-    frames_.emplace(options_, ranks_, notices_);
+    if (options_.makes_surfaces)
+        frames_ = std::make_unique<PartsFrames>(options_, ranks_, notices_);
+    else
+        frames_ = std::make_unique<SessionFrames>(options_, ranks_, notices_);
 }
 
 Node Run::mesh(const Node& params) {

@@ -2,14 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 
+#include "frames.hpp"
 #include "mesh_particles.hpp"
 #include "node.hpp"
 #include "notices.hpp"
 #include "ranks.hpp"
 #include "run_options.hpp"
-#include "session_frames.hpp"
 
 namespace meniscus::catalyst {
 
@@ -23,7 +23,7 @@ public:
     void execute(const Node& params);
     void finish() { frames_->finish(); }
 
-    const SessionFrames& frames() const noexcept { return *frames_; }
+    const Frames& frames() const noexcept { return *frames_; }
 
 private:
     /// The data of the channel that has the particles; a node that is not there if this rank has none.
@@ -36,7 +36,7 @@ private:
     Ranks ranks_;
     RunOptions options_;
     MeshParticles particles_;
-    std::optional<SessionFrames> frames_;
+    std::unique_ptr<Frames> frames_;
     std::uint64_t index_ = 0;       ///< of the frame
     std::uint64_t next_index_ = 0;  ///< the least that the next one may have
     double time_ = 0.0;

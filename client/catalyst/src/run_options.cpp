@@ -1,12 +1,11 @@
 #include "run_options.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <string_view>
 #include <utility>
 
+#include "c_options.hpp"
 #include "meniscus/error.hpp"
-#include "meniscus/meniscus.h"
 #include "meniscus/quoted.hpp"
 #include "text_options/attribute_options.hpp"
 #include "text_options/client_options.hpp"
@@ -16,15 +15,12 @@ namespace {
 
 using text_options::OptionReader;
 using text_options::Options;
-using Handle = std::unique_ptr<meniscus_options, void (*)(meniscus_options*)>;
 
 /// Why the C interface does not know an option of this name; empty if it does.
 std::string unknown(const std::string& name) {
     if (name == "server" || name == "channel") return {};
-    meniscus_options* made = nullptr;
-    meniscus_options_create(&made);
-    const Handle options(made, meniscus_options_destroy);
-    if (meniscus_options_set(made, name.c_str(), "") == MENISCUS_OK) return {};
+    const COptions options = c_options({});
+    if (meniscus_options_set(options.get(), name.c_str(), "") == MENISCUS_OK) return {};
     return meniscus_error_message();
 }
 
@@ -81,7 +77,7 @@ std::string taken(Options& options, const std::string& name) {
 }  // namespace
 
 RunOptions read_run_options(const Node& params, const char* environment, Notices& notices) {
-    Options options{{"meshes", "false"}, {"policy", "latest"}};
+    Options options;
     for (const Node& script : params.at("catalyst/scripts").children()) read_script(script, options, notices);
     for (auto& [name, value] : pairs_of(environment == nullptr ? "" : environment)) {
         if (const std::string reason = unknown(name); !reason.empty())
@@ -89,6 +85,9 @@ RunOptions read_run_options(const Node& params, const char* environment, Notices
         options.insert_or_assign(name, std::move(value));
     }
     RunOptions run;
+    run.makes_surfaces = options.contains("reconstruct-ranks");
+    options.try_emplace("policy", "latest");
+    if (!run.makes_surfaces) options.try_emplace("meshes", "false");
     run.server = taken(options, "server");
     run.channel = taken(options, "channel");
     if (run.server.empty())

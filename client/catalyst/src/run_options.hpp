@@ -10,8 +10,9 @@
 namespace meniscus::catalyst {
 
 struct RunOptions {
-    std::string server;   ///< HOST:PORT and so on, as meniscus_client_connect() takes it
-    std::string channel;  ///< the one whose particles are taken; empty: the first that has a mesh
+    std::string server;           ///< HOST:PORT and so on, as meniscus_client_connect() takes it
+    std::string channel;          ///< the one whose particles are taken; empty: the first that has a mesh
+    bool makes_surfaces = false;  ///< the ranks, by option reconstruct-ranks; otherwise the server
     text_options::Options connection;
     text_options::Options session;
     bool all_attributes = false;

@@ -1,11 +1,10 @@
 #include "session_frames.hpp"
 
-#include <array>
-#include <cstdio>
-#include <random>
 #include <utility>
 
-#include "meniscus/error.hpp"
+#include "failure.hpp"
+#include "run_name.hpp"
+#include "server_away.hpp"
 
 namespace meniscus::catalyst {
 namespace {
@@ -13,39 +12,12 @@ namespace {
 /// Seconds without an answer, at the end: of a server that has stopped.
 constexpr double last_answers = 30.0;
 
-/// What all ranks of a run call it by.
-struct RunName {
-    std::array<std::uint32_t, 4> session;
-    std::uint64_t run;
-};
-
-RunName drawn_name() {
-    std::random_device random;
-    RunName name{};
-    for (std::uint32_t& word : name.session) word = random();
-    // The number of a first run, which is not 0, and below it room for those that follow.
-    name.run = (std::uint64_t{random()} << 16) + 1;
-    return name;
-}
-
-/// A UUID of version 4: random but for six bits.
-std::string uuid_of(std::array<std::uint32_t, 4> words) {
-    words[1] = (words[1] & 0xFFFF0FFFU) | 0x4000U;
-    words[2] = (words[2] & 0x3FFFFFFFU) | 0x80000000U;
-    std::array<char, 37> text{};
-    std::snprintf(text.data(), text.size(), "%08x-%04x-%04x-%04x-%04x%08x", words[0], words[1] >> 16U,
-                  words[1] & 0xFFFFU, words[2] >> 16U, words[2] & 0xFFFFU, words[3]);
-    return text.data();
-}
-
 }  // namespace
 
 SessionFrames::SessionFrames(const RunOptions& options, const Ranks& ranks, Notices& notices)
     : options_(options), ranks_(ranks), notices_(notices) {
-    RunName name = drawn_name();
-    ranks.broadcast(&name, sizeof name);
-    const auto given = options.session.find("session");
-    id_ = given != options.session.end() ? given->second : uuid_of(name.session);
+    const RunName name = draw_name(options, ranks);
+    id_ = name.session_id;
     run_ = name.run;
     open(false);
     const bool refused = opening_->first_attempt() == SessionOpening::State::refused;

@@ -5,8 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "failure.hpp"
-#include "meniscus/meniscus.h"
+#include "frames.hpp"
 #include "notices.hpp"
 #include "ranks.hpp"
 #include "run_options.hpp"
@@ -14,24 +13,19 @@
 
 namespace meniscus::catalyst {
 
-/// All ranks call its functions together. A frame goes up from all ranks or from none, so that no part waits for one
-/// that does not come; after whatever ended the session for one rank, all open it anew, as another run.
-class SessionFrames {
+/// A frame goes up from all ranks or from none, so that no part waits for one that does not come; after whatever ended
+/// the session for one rank, all open it anew, as another run.
+class SessionFrames final : public Frames {
 public:
     /// Waits for one attempt to open the session. A server that is away is told, and awaited beside the simulation.
     /// Throws Failure on all ranks if the options are refused on one.
     SessionFrames(const RunOptions& options, const Ranks& ranks, Notices& notices);
 
-    /// particles: of this rank, borrowed; none if it has no frame, which is then left out on all. Throws Failure for
-    /// what was wrong with a frame, and not for a server that is away.
-    void push(const meniscus_particles* particles, std::uint64_t index, double simulation_time);
-    /// Waits for the answers to what is under way, and ends the session.
-    void finish();
-
-    const std::string& session_id() const noexcept { return id_; }
-    std::uint64_t sent() const noexcept { return sent_; }
-    /// Frames that were left out while the server was away, or since a rank had none.
-    std::uint64_t left_out() const noexcept { return left_out_; }
+    void push(const meniscus_particles* particles, std::uint64_t index, double simulation_time) override;
+    void finish() override;
+    const std::string& session_id() const noexcept override { return id_; }
+    std::uint64_t sent() const noexcept override { return sent_; }
+    std::uint64_t left_out() const noexcept override { return left_out_; }
 
 private:
     enum class State { lost, awaited, open };

@@ -3,37 +3,16 @@
 #include <chrono>
 #include <utility>
 
+#include "c_options.hpp"
+#include "server_away.hpp"
+
 namespace meniscus::catalyst {
 namespace {
 
 /// A connection that is refused costs next to nothing.
 constexpr std::chrono::seconds between_attempts(1);
 
-using COptions = std::unique_ptr<meniscus_options, Destroyer<meniscus_options, meniscus_options_destroy>>;
-
-/// The names are known: the options were read. Without memory the call that they are for fails.
-COptions options_of(const text_options::Options& values) {
-    meniscus_options* made = nullptr;
-    meniscus_options_create(&made);
-    COptions options(made);
-    for (const auto& [name, value] : values) meniscus_options_set(made, name.c_str(), value.c_str());
-    return options;
-}
-
 }  // namespace
-
-bool is_away(meniscus_result result) {
-    switch (result) {
-        case MENISCUS_UNAVAILABLE:
-        case MENISCUS_DEADLINE_EXCEEDED:
-        case MENISCUS_CANCELED:
-        case MENISCUS_ABORTED:
-        case MENISCUS_NOT_FOUND:
-            return true;
-        default:
-            return false;
-    }
-}
 
 SessionOpening::SessionOpening(std::string server, text_options::Options connection, text_options::Options session,
                                bool again)
@@ -62,12 +41,12 @@ SessionOpening::State SessionOpening::attempt() {
     Session session;
     if (client_ == nullptr) {
         meniscus_client* made = nullptr;
-        result = meniscus_client_connect(server_.c_str(), options_of(connection_options_).get(), &made);
+        result = meniscus_client_connect(server_.c_str(), c_options(connection_options_).get(), &made);
         client_.reset(made);
     }
     if (result == MENISCUS_OK) {
         meniscus_session* made = nullptr;
-        result = meniscus_session_open(client_.get(), options_of(session_options_).get(), &made);
+        result = meniscus_session_open(client_.get(), c_options(session_options_).get(), &made);
         session.reset(made);
     }
     const std::lock_guard lock(mutex_);

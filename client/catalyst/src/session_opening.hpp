@@ -20,9 +20,6 @@ struct Destroyer {
 using Session = std::unique_ptr<meniscus_session, Destroyer<meniscus_session, meniscus_session_destroy>>;
 using Client = std::unique_ptr<meniscus_client, Destroyer<meniscus_client, meniscus_client_destroy>>;
 
-/// Whether an error is that of a server, or of a session, that may be there again later.
-bool is_away(meniscus_result result);
-
 class SessionOpening {
 public:
     /// again: what a server refuses is tried again, too, since it has taken the same options before.

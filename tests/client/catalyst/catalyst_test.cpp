@@ -420,6 +420,70 @@ TEST_F(Catalyst, AServerThatIsAwayStopsNothingAndIsSaidOnce) {
     EXPECT_EQ(times(said, "frames go to session"), 2U) << said;
 }
 
+TEST_F(Catalyst, MakesSurfacesItselfWhereItIsToldTo) {
+    start("reconstruct-ranks=all threads=1 attribute=heat");
+    const CWatcher watcher = watch("heat");
+    std::vector<Particles> frames;
+    for (unsigned step = 0; step < 4; ++step) frames.push_back(splash(step, 4));
+    std::vector<float> heat(frames[0].count());
+    for (std::size_t i = 0; i < heat.size(); ++i) heat[i] = 0.01F * static_cast<float>(i);
+    Settings settings = default_settings();
+    settings.attributes = {"heat"};
+    const auto expect = [&](std::uint64_t step) {
+        ParticleFrame frame = frames[step].frame();
+        const std::vector<ParticleArray> arrays{
+            {"heat", std::as_bytes(std::span(heat).first(frame.count())), ElementType::float32, 1}};
+        frame.arrays = arrays;
+        EXPECT_EQ(sha256_of(next(watcher, step)), mesh_sha256(reconstruct(settings, frame)));
+    };
+    for (std::uint64_t step = 0; step < frames.size(); ++step) {
+        conduit_node params;
+        conduit_node& mesh = points_mesh(params, static_cast<std::int64_t>(step));
+        set_positions(mesh, frames[step].positions);
+        mesh["fields/heat/association"].set(std::string("vertex"));
+        mesh["fields/heat/topology"].set(std::string("particles"));
+        mesh["fields/heat/values"].point(heat.data(), frames[step].count());
+        EXPECT_EQ(execute(params), catalyst_status_ok);
+        if (step > 0) expect(step - 1);
+    }
+    EXPECT_EQ(results().sent, 4);
+    EXPECT_EQ(finalize(), catalyst_status_ok);
+    expect(3);
+}
+
+TEST_F(Catalyst, AsksAgainForAServerThatIsAwayWhereItMakesSurfaces) {
+    const std::string address = address_;
+    process_.signal(SIGTERM);
+    process_.exit_code();
+    testing::internal::CaptureStderr();
+    start("reconstruct-ranks=all threads=1");
+    const Particles particles = splash(1, 4);
+    std::int64_t step = 0;
+    const auto give = [&] {
+        conduit_node params;
+        set_positions(points_mesh(params, step++), particles.positions);
+        return execute(params);
+    };
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(give(), catalyst_status_ok);
+    EXPECT_EQ(results().left_out, 3);
+    EXPECT_EQ(results().sent, 0);
+    server::test::Process back({"--listen", address, "--threads", "2"});
+    EXPECT_EQ(back.address(), address);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (results().sent < 2 && std::chrono::steady_clock::now() < end) ASSERT_EQ(give(), catalyst_status_ok);
+    CClient client;
+    ASSERT_EQ(meniscus_client_connect(address.c_str(), nullptr, client.out()), MENISCUS_OK);
+    CWatcher watcher;
+    ASSERT_EQ(meniscus_watcher_open(client.get(), results().session.c_str(), nullptr, watcher.out()), MENISCUS_OK)
+        << meniscus_error_message();
+    CFrame frame;
+    ASSERT_EQ(meniscus_watcher_next(watcher.get(), patience, frame.out()), MENISCUS_OK) << meniscus_error_message();
+    EXPECT_EQ(sha256_of(frame), expected(particles));
+    EXPECT_EQ(finalize(), catalyst_status_ok);
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(times(said, "surfaces of the ranks go to session"), 1U) << said;
+}
+
 TEST_F(Catalyst, SaysWhatItIs) {
     conduit_node about;
     EXPECT_EQ(implementation().about(&about), catalyst_status_ok);

@@ -1,6 +1,7 @@
 // libcatalyst-meniscus.so in a simulation of several ranks under mpirun.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -80,6 +81,58 @@ TEST_F(CatalystRanks, PushTheFramesOfOneProcessInParts) {
         EXPECT_EQ(answer.sent, step);
         expect_frame(watcher, step);
     }
+    simulation.end();
+    EXPECT_EQ(simulation.answer().status, 0);
+}
+
+// Each is shown with the next one.
+TEST_F(CatalystRanks, MakeTheSurfaceOfOneProcessThemselves) {
+    for (const char* const makers : {"all", "node", "2"}) {
+        Simulation simulation(4, MENISCUS_CATALYST_OF_RANKS, options() + " threads=1 reconstruct-ranks=" + makers);
+        ASSERT_EQ(simulation.answer().status, 0);
+        const CWatcher watcher = watch(session_id);
+        for (std::int64_t step = 1; step <= 5; ++step) {
+            const auto answer = simulation.execute(step);
+            EXPECT_EQ(answer.status, 0);
+            EXPECT_EQ(answer.sent, step);
+            if (step > 1) expect_frame(watcher, step - 1);
+        }
+        simulation.end();
+        expect_frame(watcher, 5);
+        EXPECT_EQ(simulation.answer().status, 0);
+    }
+}
+
+TEST_F(CatalystRanks, MakeSurfacesAgainAfterTheSessionHasBeenEnded) {
+    Simulation simulation(3, MENISCUS_CATALYST_OF_RANKS, options() + " threads=1 reconstruct-ranks=all");
+    ASSERT_EQ(simulation.answer().status, 0);
+    ASSERT_EQ(simulation.execute(1).sent, 1);
+    ASSERT_EQ(simulation.execute(2).sent, 2);
+    ASSERT_EQ(meniscus_client_delete_session(client_.get(), session_id), MENISCUS_OK) << meniscus_error_message();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    std::int64_t step = 3;
+    // It is there again with the frame that is published next after one that was lost.
+    CWatcher watcher;
+    meniscus_result result = MENISCUS_NOT_FOUND;
+    for (; result == MENISCUS_NOT_FOUND && std::chrono::steady_clock::now() < end; ++step) {
+        EXPECT_EQ(simulation.execute(step).status, 0);
+        result = meniscus_watcher_open(client_.get(), session_id, nullptr, watcher.out());
+        if (result != MENISCUS_OK) continue;
+        CFrame frame;
+        result = meniscus_watcher_next(watcher.get(), 1.0, frame.out());
+        std::uint64_t index = 0;
+        if (result != MENISCUS_OK || meniscus_frame_index(frame.get(), &index) != MENISCUS_OK) continue;
+        const Particles whole = splash(static_cast<unsigned>(index), 5);
+        EXPECT_EQ(sha256_of(frame), mesh_sha256(reconstruct(default_settings(), whole.frame())));
+    }
+    EXPECT_EQ(result, MENISCUS_OK);
+    simulation.end();
+    EXPECT_EQ(simulation.answer().status, 0);
+}
+
+TEST_F(CatalystRanks, AreRefusedWhereSomeAloneWouldMakeSurfaces) {
+    Simulation simulation(3, MENISCUS_CATALYST_OF_RANKS, options(), "reconstruct-ranks=all");
+    EXPECT_EQ(simulation.answer().best, 200 - MENISCUS_INVALID_INPUT);
     simulation.end();
     EXPECT_EQ(simulation.answer().status, 0);
 }
