@@ -32,6 +32,11 @@ protected:
         set_options(options(more));
         ASSERT_EQ(initialize(), catalyst_status_ok);
     }
+    static int execute_frame(const Particles& particles, std::int64_t step) {
+        conduit_node params;
+        set_positions(points_mesh(params, step), particles.positions);
+        return execute(params);
+    }
     CWatcher watch(const char* attributes = nullptr, const char* session_id = nullptr) {
         CWatcher watcher;
         const std::string own = session_id == nullptr ? results().session : session_id;
@@ -385,11 +390,7 @@ TEST_F(Catalyst, AServerThatIsAwayStopsNothingAndIsSaidOnce) {
     start();
     const Particles particles = splash(1, 4);
     std::int64_t step = 0;
-    const auto give = [&] {
-        conduit_node params;
-        set_positions(points_mesh(params, step++), particles.positions);
-        return execute(params);
-    };
+    const auto give = [&] { return execute_frame(particles, step++); };
     for (int i = 0; i < 3; ++i) EXPECT_EQ(give(), catalyst_status_ok);
     EXPECT_EQ(results().left_out, 3);
     EXPECT_EQ(results().sent, 0);
@@ -459,11 +460,7 @@ TEST_F(Catalyst, AsksAgainForAServerThatIsAwayWhereItMakesSurfaces) {
     start("reconstruct-ranks=all threads=1");
     const Particles particles = splash(1, 4);
     std::int64_t step = 0;
-    const auto give = [&] {
-        conduit_node params;
-        set_positions(points_mesh(params, step++), particles.positions);
-        return execute(params);
-    };
+    const auto give = [&] { return execute_frame(particles, step++); };
     for (int i = 0; i < 3; ++i) EXPECT_EQ(give(), catalyst_status_ok);
     EXPECT_EQ(results().left_out, 3);
     EXPECT_EQ(results().sent, 0);

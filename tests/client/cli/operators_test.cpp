@@ -11,6 +11,7 @@
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
@@ -140,11 +141,12 @@ TEST_F(Operators, MayStopWatchingASessionThatRests) {
 }
 
 TEST_F(Operators, AreToldWhyTheSessionEndedThatTheyWatch) {
-    std::thread deleting([&] {
-        while (client.session(id).watchers == 0) std::this_thread::yield();
+    std::jthread deleting([&](const std::stop_token& stop) {
+        while (!stop.stop_requested() && client.session(id).watchers == 0) std::this_thread::yield();
         client.delete_session(id);
     });
     const ProcessResult result = run({"watch", id, "-o", (directory / "meshes").string()});
+    deleting.request_stop();
     deleting.join();
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_TRUE(result.err.ends_with("The session has ended: it was deleted\n")) << result.err;
