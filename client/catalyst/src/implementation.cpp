@@ -24,8 +24,9 @@ Run& running() {
 }
 
 /// 200 and the number of the C interface's error, without its sign.
-catalyst_status failed(meniscus_result result, const char* message) {
-    std::cerr << "meniscus: " + visible(message) + "\n";
+/// message: empty where another rank says it.
+catalyst_status failed(meniscus_result result, const std::string& message) {
+    if (!message.empty()) std::cerr << "meniscus: " + visible(message) + "\n";
     return static_cast<catalyst_status>(int{catalyst_status_meniscus_first} - int{result});
 }
 

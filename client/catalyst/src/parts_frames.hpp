@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "failure.hpp"
 #include "frames.hpp"
 #include "notices.hpp"
 #include "ranks.hpp"
@@ -32,7 +33,12 @@ private:
 
     /// Returns what is the same on all ranks.
     meniscus_result open();
-    void say_away(const std::string& until);
+    /// The error of the call before.
+    Failure failure(meniscus_result result) const;
+    void say_there();
+    /// Why frames are left out, once of each reason. until: what they then wait for, with its " until".
+    void say_left_out(const std::string& until);
+    void leave_out(bool is_away);
 
     const Ranks& ranks_;
     Notices& notices_;
@@ -41,11 +47,13 @@ private:
     std::string server_;
     /// None: the server is awaited. Ended by finish() alone, which all ranks call: not where a program ends without it.
     meniscus_parts* parts_ = nullptr;
-    std::string said_;  ///< of a server that is away
+    std::string said_;          ///< of a server that is away; empty: it is there
+    unsigned taken_since_ = 0;  ///< frames, since then
     std::chrono::seconds pause_ = first_pause;
     Clock::time_point next_attempt_{};  ///< rank 0's counts
     std::uint64_t sent_ = 0;
     std::uint64_t left_out_ = 0;
+    std::uint64_t left_out_meanwhile_ = 0;  ///< since the server was there
 };
 
 }  // namespace meniscus::catalyst

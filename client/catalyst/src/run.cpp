@@ -1,5 +1,6 @@
 #include "run.hpp"
 
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <limits>
@@ -45,8 +46,7 @@ Run::Run(const Node& params, const char* environment) : ranks_(communicator(para
     // Ranks that make surfaces meet in other calls than those that do not.
     if (ranks_.least({options_.makes_surfaces ? 1 : 0, options_.makes_surfaces ? 0 : 1}) == std::array{0, 0})
         throw InvalidInput("option 'reconstruct-ranks' is set on some ranks alone, must be the same on all");
-    if (params.at("catalyst/pipelines"))
-        notices_.say_once("catalyst/pipelines is passed over: none are run here, particles go to the server");
+    if (params.at("catalyst/pipelines")) notices_.say_once("catalyst/pipelines is passed over: none are run here");
     if (options_.makes_surfaces)
         frames_ = std::make_unique<PartsFrames>(options_, ranks_, notices_);
     else
@@ -100,8 +100,9 @@ void Run::require_order() const {
 }
 
 const meniscus_particles& Run::particles(const Node& params) {
-    index_ = next_index_;
-    time_ = static_cast<double>(next_index_);
+    // The same on all ranks, also after a frame that one of them refused.
+    index_ = std::max(next_index_, executed_++);
+    time_ = static_cast<double>(index_);
     const Node state = params.at("catalyst/state");
     if (!state) notices_.say_once("catalyst/state is missing: frames are numbered from 0, and a number is its time");
     read_state(state);

@@ -39,6 +39,7 @@ private:
     std::unique_ptr<Frames> frames_;
     std::uint64_t index_ = 0;       ///< of the frame
     std::uint64_t next_index_ = 0;  ///< the least that the next one may have
+    std::uint64_t executed_ = 0;    ///< frames so far, refused ones too
     double time_ = 0.0;
 };
 

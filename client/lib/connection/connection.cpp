@@ -54,10 +54,11 @@ std::shared_ptr<grpc::Channel> open_channel(const std::string& address, const Co
     // gRPC's minimum is the time that one attempt may take: several ways to a server that is far away, and back.
     arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
     arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-    // A server that answers nothing any more has gone, though no connection was closed: calls end 50 s later.
-    arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
-    arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 20'000);
-    arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // without a limit: who watches sends no data
+    // A server that answers nothing any more has gone, though no connection was closed. The timeout is TCP's, too, for
+    // bytes that are not taken, and a proxy takes none while a busy server takes none of the stream: minutes.
+    arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 60'000);
+    arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 240'000);
+    arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // without a limit: watchers send no data
     if (!options.server_name.empty()) arguments.SetSslTargetNameOverride(options.server_name);
     return grpc::CreateCustomChannel(address, credentials(options), arguments);
 }

@@ -42,7 +42,9 @@ ServerError server_error(const grpc::Status& status, const std::string& address)
                                std::to_string(static_cast<int>(status.error_code())) + ")",
                            ErrorCode::unknown, "UNKNOWN");
     if (meaning->code == ErrorCode::unavailable) {
-        const std::string& reason = message == "keepalive watchdog timeout" ? "it answers nothing" : message;
+        // gRPC's words for a ping that is not answered, and for bytes that are not taken.
+        const bool is_silent = message == "keepalive watchdog timeout" || message == "recvmsg:Connection timed out";
+        const std::string reason = is_silent ? "it answers nothing" : message;
         return ServerError(
             "the server at " + address + " is not available (" + reason + "): restart meniscusd or check the address",
             meaning->code, meaning->name);

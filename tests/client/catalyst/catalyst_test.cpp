@@ -302,6 +302,27 @@ TEST_F(Catalyst, RefusesAFrameThatIsNoneAndTakesTheNext) {
         refuses_frame(good, "catalyst/state/timestep is " + std::to_string(step) + " after " + std::to_string(step)));
 }
 
+// Of several ranks, which number them alike, one may refuse its part.
+TEST_F(Catalyst, CountsRefusedFramesWhereNoStateNumbersThem) {
+    start();
+    const CWatcher watcher = watch();
+    const Particles particles = splash(1, 4);
+    for (std::uint64_t frame = 0; frame < 5; ++frame) {
+        const bool is_wrong = frame % 2 == 1;
+        conduit_node params;
+        conduit_node& root = params["catalyst/channels/fluid"];
+        root["type"].set(std::string("mesh"));
+        conduit_node& mesh = root["data"];
+        mesh["coordsets/coords/type"].set(std::string("explicit"));
+        mesh["topologies/particles/type"].set(std::string("points"));
+        mesh["topologies/particles/coordset"].set(std::string(is_wrong ? "others" : "coords"));
+        set_positions(mesh, particles.positions);
+        EXPECT_EQ(execute(params), is_wrong ? status_of(MENISCUS_INVALID_INPUT) : catalyst_status_ok);
+        if (is_wrong) continue;
+        EXPECT_EQ(sha256_of(next(watcher, frame)), expected(particles));
+    }
+}
+
 TEST_F(Catalyst, SendsFramesWithoutParticles) {
     start("attribute=pressure");
     const CWatcher watcher = watch();
