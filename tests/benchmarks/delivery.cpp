@@ -80,6 +80,7 @@ Row row_of(const DeliveryOptions& options, Codec codec, const std::vector<Delive
     const std::vector<Delivered> warm(delivered.begin() + 1, delivered.end());
     const auto median_of = [&](const auto& value) {
         std::vector<double> values;
+        values.reserve(warm.size());
         for (const Delivered& each : warm) values.push_back(value(each));
         return median(std::move(values));
     };

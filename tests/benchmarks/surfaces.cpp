@@ -52,14 +52,15 @@ std::vector<client::ReceivedFrame> surfaces_of(const Frames& frames, const Setti
 template <class Upload>
 double processor_seconds_of(const ServerProgram& server, client::Watcher& watcher, std::size_t frames,
                             const Upload& upload) {
+    const std::size_t warming_up = frames / 2;
     double before = 0.0;
     for (std::size_t i = 0; i < frames; ++i) {
-        if (i == frames / 2) before = server.processor_seconds();
+        if (i == warming_up) before = server.processor_seconds();
         upload(i);
         const auto frame = watcher.next();
         if (!frame || frame->index != i) throw std::runtime_error("the watcher has skipped a frame");
     }
-    return (server.processor_seconds() - before) / static_cast<double>(frames - frames / 2);
+    return (server.processor_seconds() - before) / static_cast<double>(frames - warming_up);
 }
 
 struct Seconds {

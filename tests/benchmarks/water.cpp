@@ -120,7 +120,7 @@ std::vector<float> make_water(WaterKind kind, std::size_t particles, float parti
 }
 
 std::vector<float> make_any_water(WaterKind kind, std::size_t particles, float particle_radius) {
-    const std::vector<float> water = make_water(kind, particles, particle_radius);
+    std::vector<float> water = make_water(kind, particles, particle_radius);
     if (particles >= basin_particles) return water;
     const float share = std::sqrt(static_cast<float>(particles) / static_cast<float>(basin_particles));
     const float edge = share * static_cast<float>(side) * 2.0F * particle_radius;

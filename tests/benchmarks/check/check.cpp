@@ -91,7 +91,7 @@ private:
             add(step, way, "left out", {});
             return {};
         }
-        const CommandEnd end =
+        CommandEnd end =
             run_command(command, (fs::path(options_.out) / (name + ".log")).string(), std::min(left, step.seconds));
         const bool has_passed = end.exit_code == 0 && !end.is_cut_off;
         // The last step takes the rest of the time, and none is at fault where the run is told to end.

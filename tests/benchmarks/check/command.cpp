@@ -32,6 +32,7 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 std::vector<char*> pointers(std::vector<std::string>& texts) {
     std::vector<char*> result;
+    result.reserve(texts.size() + 1);
     for (std::string& text : texts) result.push_back(text.data());
     result.push_back(nullptr);
     return result;
@@ -39,7 +40,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 
 std::vector<std::string> environment_of(const Command& command) {
     std::vector<std::string> all;
-    for (const auto& [name, value] : command.environment) all.push_back(name + "=" + value);
+    for (const auto& [name, value] : command.environment) all.emplace_back(name).append("=").append(value);
     for (char** variable = environ; *variable != nullptr; ++variable) all.emplace_back(*variable);
     return all;  // of two with one name the first counts
 }

@@ -1,6 +1,8 @@
 #include "gpu/mesh_difference.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
 #include <sstream>
 
@@ -27,11 +29,12 @@ template <class Elements>
 void compare(const char* name, const Elements& cpu, const Elements& gpu, MeshDifference& found) {
     const std::size_t both = std::min(cpu.size(), gpu.size());
     constexpr std::size_t bytes = sizeof(cpu[0]);
+    const auto bytes_of = [](const auto& element) { return std::bit_cast<std::array<std::byte, bytes>>(element); };
     std::size_t first = both;
     std::size_t different = 0;
     if (both != 0 && std::memcmp(cpu.data(), gpu.data(), both * bytes) != 0)
         for (std::size_t i = 0; i < both; ++i)
-            if (std::memcmp(&cpu[i], &gpu[i], bytes) != 0) {
+            if (bytes_of(cpu[i]) != bytes_of(gpu[i])) {
                 first = std::min(first, i);
                 ++different;
             }

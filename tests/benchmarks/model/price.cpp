@@ -79,7 +79,7 @@ Price price_launch(const LaunchCounts& counts, double times, const KernelResourc
 
 double price_sort(double elements, double bytes, unsigned key_bits, const GpuConstants& gpu) {
     // A pass reads and writes all, after one that only reads.
-    const double passes = (key_bits + 7) / 8;
+    const unsigned passes = (key_bits + 7) / 8;
     const double pass_us = 2.0 * elements * bytes / (1e3 * gpu["memory_gbs"]);
     const double least_us =
         3.0 * gpu["launch_us"];  // a pass is a memset and a kernel whose blocks wait for those before

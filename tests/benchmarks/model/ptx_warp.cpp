@@ -115,27 +115,23 @@ void PtxWarp::shuffle(const PtxInstruction& i, std::uint32_t mask) {
         const auto segment = static_cast<unsigned>(limits.of[lane] >> 8 & 31);
         const unsigned first = lane & segment;
         const unsigned last = first | (clamp & ~segment);
-        unsigned from = lane;
-        bool is_inside = true;
-        switch (static_cast<PtxShuffle>(i.detail)) {
+        const auto way = static_cast<PtxShuffle>(i.detail);
+        unsigned from = lane ^ distance;
+        switch (way) {
             case PtxShuffle::index:
                 from = first | (distance & ~segment);
-                is_inside = from <= last;
                 break;
             case PtxShuffle::up:
-                // Here the clamp is the lowest lane that one may come from.
-                is_inside = lane >= distance && lane - distance >= (first | clamp);
                 from = lane - distance;
                 break;
             case PtxShuffle::down:
                 from = lane + distance;
-                is_inside = from <= last;
                 break;
             case PtxShuffle::exclusive_or:
-                from = lane ^ distance;
-                is_inside = from <= last;
                 break;
         }
+        // Upwards the clamp is the lowest lane that one may come from.
+        const bool is_inside = way == PtxShuffle::up ? lane >= distance && from >= (first | clamp) : from <= last;
         values(i.to[0])[lane] = given.of[is_inside ? from : lane];
         if (i.to[1] >= 0) values(i.to[1])[lane] = is_inside ? 1 : 0;
     }

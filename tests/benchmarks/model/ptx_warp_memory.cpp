@@ -19,7 +19,8 @@ std::byte* PtxWarp::address(const PtxInstruction& i, unsigned lane) {
             throw std::runtime_error("shared memory is overrun: " + program_.kernel().name);
         return block->shared.data() + at;
     }
-    return reinterpret_cast<std::byte*>(base + static_cast<std::uint64_t>(i.offset));
+    const std::uint64_t at = base + static_cast<std::uint64_t>(i.offset);
+    return reinterpret_cast<std::byte*>(at);  // NOLINT(performance-no-int-to-ptr): PTX has addresses in registers
 }
 
 /// Counts what an access asks memory for; returns the cycles until a load has it.

@@ -17,7 +17,9 @@ namespace {
 }
 
 TEST(CWithoutTheService, ConnectingSaysHowTheLibraryWasBuiltWhereNoProgramSpeaksForIt) {
-    const std::string path = std::getenv("PATH");
+    const char* const variable = std::getenv("PATH");
+    ASSERT_NE(variable, nullptr);
+    const std::string path = variable;
     ::setenv("PATH", "/nowhere", 1);
     ::unsetenv("MENISCUS_PROGRAM");
     const COptions options = options_of({{"timeout", "1"}});

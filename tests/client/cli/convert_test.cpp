@@ -29,7 +29,7 @@ protected:
 
     ProcessResult convert(const std::string& in, const std::string& out, std::vector<std::string> more = {}) const {
         more.insert(more.begin(), {"convert", in, "-o", out});
-        const ProcessResult result = run_meniscus(more);
+        ProcessResult result = run_meniscus(more);
         EXPECT_EQ(result.exit_code, 0) << result.err;
         return result;
     }

@@ -253,6 +253,7 @@ public:
                                            "--frames",   "1000000",  "--server",    address};
         arguments.insert(arguments.end(), more.begin(), more.end());
         std::vector<char*> argv;
+        argv.reserve(arguments.size() + 1);
         for (std::string& argument : arguments) argv.push_back(argument.data());
         argv.push_back(nullptr);
         posix_spawn_file_actions_t actions;

@@ -91,8 +91,9 @@ TEST_F(Cli, RefusesNumbersBeyondTheirRangeAndWhatIsNoNumber) {
                  {{"watch", "one", "--server", "localhost:1", "-o", path("w"), "--reconnect"}, "0 to 1000000"}}) {
             std::vector<std::string> arguments = command;
             arguments.push_back(value);
-            expect_refused(arguments,
-                           {command.back() == "0" ? "--view" : command.back(), value + " not in range " + range});
+            std::string answer = value;
+            answer.append(" not in range ").append(range);
+            expect_refused(arguments, {command.back() == "0" ? "--view" : command.back(), answer});
         }
 }
 

@@ -56,7 +56,7 @@ protected:
         ParticleFrame frame;
         frame.positions = positions;
         stream.push(frame, index, 0.5 * static_cast<double>(index));
-        const std::string hash = mesh_sha256(stream.next()->mesh());
+        std::string hash = mesh_sha256(stream.next()->mesh());
         wait_for(published);
         return hash;
     }

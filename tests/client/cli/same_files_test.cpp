@@ -30,8 +30,9 @@ protected:
         const auto add = [&](float x, float y, float z) {
             for (const float coordinate : {x, y, z}) positions.push_back(coordinate + jitter(random));
         };
-        for (int i = 0; i < 1000; ++i)
-            add(static_cast<float>(i % 10), static_cast<float>(i / 10 % 10), static_cast<float>(i / 100));
+        for (int z = 0; z < 10; ++z)
+            for (int y = 0; y < 10; ++y)
+                for (int x = 0; x < 10; ++x) add(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
         for (int i = 0; i < 10; ++i) add(static_cast<float>(i), 14.0F + 3.0F * static_cast<float>(i % 2), 5.0F);
         std::string bytes;
         for (const float x : positions) formats::store(bytes, x);

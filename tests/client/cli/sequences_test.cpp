@@ -126,6 +126,7 @@ public:
     explicit Running(std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), MENISCUS_CLI);
         std::vector<char*> argv;
+        argv.reserve(arguments.size() + 1);
         for (std::string& argument : arguments) argv.push_back(argument.data());
         argv.push_back(nullptr);
         std::array<int, 2> pipe{};
@@ -184,6 +185,7 @@ TEST_F(Sequences, GoOnAfterTheyWereKilledAndEndWithTheSameFiles) {
         running.kill();
     }
     std::vector<bool> were_there;
+    were_there.reserve(frame_count);
     for (int i = 0; i < frame_count; ++i) were_there.push_back(std::filesystem::exists(mesh("killed", i)));
     const auto skipped = std::count(were_there.begin(), were_there.end(), true);
     ASSERT_GE(skipped, 5);
@@ -216,7 +218,7 @@ TEST_F(Sequences, SkipFramesOnlyIfAllTheirFilesAreThere) {
 TEST_F(Sequences, ShowABarOnATerminalAndNowhereElse) {
     const auto in_a_terminal = [&](const std::vector<std::string>& more) {
         TerminalProgram program = in_terminal(sequence("bar", more));
-        const std::string said = program.read_to_its_end();
+        std::string said = program.read_to_its_end();
         EXPECT_EQ(program.exit_code(), 0) << said;
         return said;
     };

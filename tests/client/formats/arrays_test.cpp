@@ -38,7 +38,7 @@ Particles ply_with(const std::vector<std::array<std::string, 3>>& properties) {
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
     std::string row = "0 0 0";
     for (const auto& [type, name, value] : properties) {
-        header += "property " + type + " " + name + "\n";
+        header.append("property ").append(type).append(" ").append(name).append("\n");
         row += " " + value;
     }
     return formats::read_particle_ply("f", header + "end_header\n" + row + "\n");
@@ -148,6 +148,7 @@ TEST(PlyArrays, WhatCannotBeAnAttributeIsLeftOutWithAReason) {
 
 TEST(PlyArrays, TheFirstSixteenAreKept) {
     std::vector<std::array<std::string, 3>> properties;
+    properties.reserve(18);
     for (int i = 0; i < 18; ++i) properties.push_back({"float", "a" + std::to_string(i), "0"});
     const Particles particles = ply_with(properties);
     EXPECT_EQ(particles.arrays.size(), max_particle_arrays);

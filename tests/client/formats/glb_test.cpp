@@ -138,13 +138,15 @@ TEST(UsdaWriter, SaysPointsFacesNormalsAndAttributes) {
     const TemporaryDirectory directory;
     formats::write_usda(directory / "a.usda", attributed_tetrahedron());
     const std::string text = text_of(directory / "a.usda");
+    const char* const normals =
+        "    normal3f[] normals = [(-1, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)] (\n        interpolation = "
+        "\"vertex\"\n";
     for (const char* line : {
              "#usda 1.0\n",
              "    point3f[] points = [(0, 0, 0), (2, 0, 0), (0, 4, 0), (0, 0, 6)]\n",
              "    int[] faceVertexCounts = [3, 3, 3, 3]\n",
              "    int[] faceVertexIndices = [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]\n",
-             "    normal3f[] normals = [(-1, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)] (\n        interpolation = "
-             "\"vertex\"\n",
+             normals,
              "    vector3f[] velocities = [(0, 1, 2), (3, 4, 5), (6, 7, 8), (9, 10, 11)]\n",
              "    float[] primvars:age = [0.5, 1.5, 2.5, 3.5] (\n",
              "    uchar[] primvars:phase = [0, 1, 2, 255] (\n",

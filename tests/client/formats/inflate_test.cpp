@@ -60,12 +60,12 @@ TEST(Inflate, ZipsOfZerosAreReadAsParticlesAndAsMeshes) {
 }
 
 TEST(Inflate, BytesThatAreCutAreRefusedWhereverTheyAreCut) {
-    for (const auto& [window, form] :
+    for (const auto& way :
          {std::pair{Deflating::raw, formats::Deflate::raw}, {Deflating::gzip, formats::Deflate::gzip}}) {
-        const std::string bytes = compressed_zeros(1'000'000, window);
+        const std::string bytes = compressed_zeros(1'000'000, way.first);
         for (std::size_t size = 0; size < bytes.size(); ++size) {
             const std::string message = refusal([&] {
-                formats::inflate(inflating, std::string_view(bytes).substr(0, size), form, 2'000'000, "member");
+                formats::inflate(inflating, std::string_view(bytes).substr(0, size), way.second, 2'000'000, "member");
             });
             ASSERT_EQ(message, "f: truncated: member ends before its compressed data do") << size;
         }

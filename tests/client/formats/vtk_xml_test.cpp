@@ -2,8 +2,9 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <bit>
-#include <cstring>
+#include <span>
 
 #include "formats/bytes/scalar.hpp"
 #include "formats/particles/particle_file.hpp"
@@ -105,8 +106,11 @@ public:
             // One after the other, as they are appended.
             const std::string points = array("Points", xml_points, 3);
             const std::string ages = array("Age", xml_ages, 1);
-            body += "<Piece NumberOfPoints=\"2\" NumberOfVerts=\"0\"><Points>" + points + "</Points><PointData>" +
-                    ages + "</PointData></Piece>\n";
+            body.append("<Piece NumberOfPoints=\"2\" NumberOfVerts=\"0\"><Points>")
+                .append(points)
+                .append("</Points><PointData>")
+                .append(ages)
+                .append("</PointData></Piece>\n");
         }
         std::string out = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"";
         out += form_.order == std::endian::big ? "BigEndian\"" : "LittleEndian\"";
@@ -150,7 +154,8 @@ TEST(VtkXml, IsReadInEveryForm) {
         ASSERT_EQ(particles.arrays.size(), 1U);
         EXPECT_EQ(particles.arrays[0].name, "age");
         ASSERT_EQ(particles.arrays[0].data.size(), 8U);
-        EXPECT_EQ(std::memcmp(particles.arrays[0].data.data(), xml_ages.data(), 8), 0);
+        const auto ages = std::as_bytes(std::span(xml_ages));
+        EXPECT_TRUE(std::ranges::equal(particles.arrays[0].data, ages));
     }
 }
 
@@ -206,7 +211,7 @@ TEST(VtkXml, WhatIsWrongIsNamedWithItsPlace) {
     const auto said = [](const std::string& from, const std::string& to, const Form& form = {.format = "ascii"}) {
         std::string text = File(form).text();
         text.replace(text.find(from), from.size(), to);
-        const std::string message = refusal([&] { read(text); });
+        std::string message = refusal([&] { read(text); });
         EXPECT_EQ(message.find('\n'), std::string::npos);
         return message;
     };

@@ -24,6 +24,7 @@ public:
         ::setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
         command.insert(command.begin(), {MENISCUS_MPIEXEC, "-n", std::to_string(ranks)});
         std::vector<char*> argv;
+        argv.reserve(command.size() + 1);
         for (std::string& word : command) argv.push_back(word.data());
         argv.push_back(nullptr);
         int down[2];

@@ -106,7 +106,8 @@ TEST(FaultsEmulated, AMissingBarrierIsCaughtByTheOrderOfChanceOfWarps) {
 TEST(FaultsEmulated, AStopThatLateBlocksReadIsCaughtByTheOrderOfChanceOfBlocks) {
     // More bricks of particles than there is room for at first, and particles of two blocks.
     test::Particles apart;
-    for (int i = 0; i < 300; ++i) apart.add(7.5F * static_cast<float>(i % 20), 7.5F * static_cast<float>(i / 20), 0.0F);
+    for (int y = 0; y < 15; ++y)
+        for (int x = 0; x < 20; ++x) apart.add(7.5F * static_cast<float>(x), 7.5F * static_cast<float>(y), 0.0F);
     Settings settings = test::default_settings();
     settings.field = Field::color;
     settings.mode = Mode::uniform;

@@ -39,6 +39,7 @@ TEST(AttributeChoice, NamesThatCannotBeAreRefused) {
     EXPECT_NE(refused(naming({"level"})).find("'level' is what the surface is made from"), std::string::npos);
     EXPECT_NE(refused(naming({"age", "id", "age"})).find("'age' twice"), std::string::npos);
     std::vector<std::string> many;
+    many.reserve(17);
     for (int i = 0; i < 17; ++i) many.push_back("a_" + std::to_string(i));
     EXPECT_NE(refused(naming(many)).find("17 attributes, at most 16"), std::string::npos);
     many.pop_back();

@@ -243,9 +243,10 @@ TEST(Validation, RefusesParticlesThatCrowdBeforeTheirFieldIsSummed) {
 
 TEST(Validation, SaysWhichRadiusFitsParticlesThatCrowd) {
     test::Particles water;
-    for (int i = 0; i < 30 * 30 * 30; ++i)
-        water.add(0.05F * static_cast<float>(i % 30), 0.05F * static_cast<float>(i / 30 % 30),
-                  0.05F * static_cast<float>(i / 900));
+    for (int z = 0; z < 30; ++z)
+        for (int y = 0; y < 30; ++y)
+            for (int x = 0; x < 30; ++x)
+                water.add(0.05F * static_cast<float>(x), 0.05F * static_cast<float>(y), 0.05F * static_cast<float>(z));
     Settings settings;
     settings.particle_radius = 1.0;
     Reconstructor reconstructor(settings, {Backend::cpu, 1, 0});

@@ -325,9 +325,11 @@ TEST(CellSizeWarning, SpeaksFromWhereDropsOfSingleParticlesVanish) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> off(-0.1F, 0.1F);
     test::Particles lone;
-    for (int i = 0; i < 343; ++i)
-        lone.add(0.4F * static_cast<float>(i % 7) + off(random), 0.4F * static_cast<float>(i / 7 % 7) + off(random),
-                 0.4F * static_cast<float>(i / 49) + off(random));
+    for (int z = 0; z < 7; ++z)
+        for (int y = 0; y < 7; ++y)
+            for (int x = 0; x < 7; ++x)
+                lone.add(0.4F * static_cast<float>(x) + off(random), 0.4F * static_cast<float>(y) + off(random),
+                         0.4F * static_cast<float>(z) + off(random));
     for (const Field field : {Field::smooth, Field::color}) {
         Settings settings = test::default_settings();
         settings.field = field;

@@ -14,6 +14,7 @@ std::vector<BrickLoad> random_loads(unsigned seed, int count) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<std::int32_t> place(-6, 6);
     std::vector<BrickLoad> loads;
+    loads.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) loads.push_back({{place(random), place(random), place(random)}, 0, random() % 100});
     return loads;
 }
@@ -62,6 +63,7 @@ TEST(DealBricks, DoesNotDependOnTheOrderOfLoads) {
 
 TEST(DealBricks, GivesPartsOfACubeTheSame) {
     std::vector<BrickLoad> loads;
+    loads.reserve(8 * 8 * 8);
     for (std::int32_t i = 0; i < 8 * 8 * 8; ++i) loads.push_back({{i % 8, i / 8 % 8, i / 64}, 0, 10});
     for (const std::size_t parts : {2U, 4U, 8U, 64U})
         for (const BrickBox& box : deal_bricks(loads, parts).boxes) EXPECT_EQ(load_of(box, loads), 5120 / parts);
@@ -70,6 +72,7 @@ TEST(DealBricks, GivesPartsOfACubeTheSame) {
 TEST(DealBricks, CutsWhereThereIsLittle) {
     // Two blocks of water, three bricks wide each, with a film between.
     std::vector<BrickLoad> loads;
+    loads.reserve(9);
     for (std::int32_t x = 0; x < 9; ++x) loads.push_back({{x, 0, 0}, 0, x < 3 || x > 5 ? 1000U : 1U});
     const std::vector<BrickBox> boxes = deal_bricks(loads, 2).boxes;
     EXPECT_GT(boxes[0].high[0], 3);

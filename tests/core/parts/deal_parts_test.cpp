@@ -66,6 +66,7 @@ TEST(DealParts, GivesAsManyToEachMakerWhateverTheyHave) {
 
 TEST(DealParts, CountsRanksWithoutPartsToTheMakerBeforeThem) {
     std::vector<BrickLoad> loads;
+    loads.reserve(8);
     for (std::int32_t x = 0; x < 8; ++x) loads.push_back({{x, 0, 0}, static_cast<std::uint32_t>(7 - x), 10});
     const std::vector<std::size_t> makers{1, 5};
     EXPECT_EQ(deal_parts(deal_bricks(loads, 2), makers), (std::vector<std::size_t>{5, 1}));

@@ -44,10 +44,12 @@ test::Particles evenly_spread(int count) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> jitter(-0.2F, 0.2F);
     test::Particles particles;
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < count; ++i) {
+        const int layer = i / side / side;
         particles.add(2.0F * static_cast<float>(i % side) + jitter(random),
                       2.0F * static_cast<float>(i / side % side) + jitter(random),
-                      2.0F * static_cast<float>(i / side / side) + jitter(random));
+                      2.0F * static_cast<float>(layer) + jitter(random));
+    }
     return particles;
 }
 
@@ -56,10 +58,12 @@ test::Particles clumps(int number, int of, float size) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> place(-size, size);
     test::Particles particles;
-    for (int c = 0; c < number; ++c)
+    for (int c = 0; c < number; ++c) {
+        const int row = c / 16;
         for (int i = 0; i < of; ++i)
             particles.add(50.0F * static_cast<float>(c % 16) + place(random),
-                          50.0F * static_cast<float>(c / 16) + place(random), place(random));
+                          50.0F * static_cast<float>(row) + place(random), place(random));
+    }
     return particles;
 }
 
@@ -121,8 +125,9 @@ std::vector<Attack> attacks() {
     all.push_back({"a clump at the finest cells of the smooth field", smooth, clumps(1, 4000, 0.0F)});
     test::Particles line, plane;
     for (int i = 0; i < megabyte; ++i) {
-        line.add(static_cast<float>(i / 3000) * 0.1F, 0.0F, 0.0F);
-        plane.add(static_cast<float>(i / 300 % 17) * 0.2F, static_cast<float>(i / 5100) * 0.2F, 0.0F);
+        const int along_line = i / 3000, row = i / 5100;
+        line.add(static_cast<float>(along_line) * 0.1F, 0.0F, 0.0F);
+        plane.add(static_cast<float>(i / 300 % 17) * 0.2F, static_cast<float>(row) * 0.2F, 0.0F);
     }
     all.push_back({"a line of coincident particles", settings_of(Field::smooth, 0.5), line});
     all.push_back({"a plane of coincident particles", settings_of(Field::smooth, 0.5), plane});
@@ -159,9 +164,10 @@ TEST(Work, ARefusalTellsTheEstimateAndTheLimitAndLeavesTheReconstructorUsable) {
 TEST(Work, WaterSprayAndMixedLevelsPassAtAnyCellSize) {
     std::vector<test::Particles> all{test::splash(3, 30, 1.0F), evenly_spread(40'000)};
     test::Particles& drops = all.emplace_back();
-    for (int i = 0; i < 1000; ++i)
-        drops.add(9.0F * static_cast<float>(i % 10), 9.0F * static_cast<float>(i / 10 % 10),
-                  9.0F * static_cast<float>(i / 100));
+    for (int z = 0; z < 10; ++z)
+        for (int y = 0; y < 10; ++y)
+            for (int x = 0; x < 10; ++x)
+                drops.add(9.0F * static_cast<float>(x), 9.0F * static_cast<float>(y), 9.0F * static_cast<float>(z));
     test::Particles& levels = all.emplace_back(evenly_spread(20'000));
     for (std::size_t i = 0; i < levels.count(); ++i) levels.levels.push_back(i % 512 == 0 ? 3 : 0);
     for (const Field field : {Field::smooth, Field::color, Field::density})
@@ -179,9 +185,11 @@ TEST(Work, WaterSprayAndMixedLevelsPassAtAnyCellSize) {
 TEST(Work, ParticlesAllAloneAreRefusedOnlyWhereTheyAreMany) {
     const auto alone = [](int side) {
         test::Particles particles;
-        for (int i = 0; i < side * side * side; ++i)
-            particles.add(13.0F * static_cast<float>(i % side), 13.0F * static_cast<float>(i / side % side),
-                          13.0F * static_cast<float>(i / side / side));
+        for (int z = 0; z < side; ++z)
+            for (int y = 0; y < side; ++y)
+                for (int x = 0; x < side; ++x)
+                    particles.add(13.0F * static_cast<float>(x), 13.0F * static_cast<float>(y),
+                                  13.0F * static_cast<float>(z));
         return particles;
     };
     Reconstructor reconstructor(settings_of(Field::smooth, 0.5), limited());

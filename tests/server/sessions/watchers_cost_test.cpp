@@ -99,7 +99,7 @@ TEST_F(WatchersCost, IsNoMemoryForFormatsThatNobodyWatchesAnyMore) {
     const auto watched_once = [&](const WatchOptions& options) {
         std::counting_semaphore<> awake{0};
         const auto watch = session.open_watch(options, [&] { awake.release(); });
-        const std::weak_ptr<const std::string> message = last_of_frame(*watch, awake);
+        std::weak_ptr<const std::string> message = last_of_frame(*watch, awake);
         session.close_watch(watch);
         return message;
     };

@@ -32,7 +32,7 @@ std::string target_of(const std::string& id, const std::string& file = "manifest
 /// Publishes a new session. frames: streamed to it, one after the other.
 std::string published(client::Client& client, const std::vector<Particles>& frames,
                       const client::SessionDescription& description = {}) {
-    const std::string id = client::new_session_id();
+    std::string id = client::new_session_id();
     client.create_session(id, settings(), {.description = description, .publish = true});
     auto stream = client.stream(id, {.receive_meshes = false});
     for (std::size_t i = 0; i < frames.size(); ++i) stream.push(frames[i].view(), 3 * i, 0.5 * static_cast<double>(i));
@@ -65,6 +65,7 @@ client::Publication reader_of(std::uint64_t frames, const std::string& http, con
 
 std::vector<Particles> waves(int count) {
     std::vector<Particles> frames;
+    frames.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) frames.push_back(wave(8, 0.3 * i));
     return frames;
 }
