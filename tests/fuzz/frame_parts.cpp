@@ -101,8 +101,10 @@ Seeds frame_parts_seeds() {
         return number_bytes(all, 1) + number_bytes(static_cast<std::uint32_t>(parts.size() - 1), 1) + join(parts) +
                order;
     };
-    return {of_parts(0, {begin(3, true, false), begin(0, false, false), begin(5, true, false)}, "\x02\x09\x00"),
-            of_parts(1, {begin(3, true, true), begin(4, true, true)}, "\x01\x11\x00\x00\x05\x00"),
+    return {of_parts(0, {begin(3, true, false), begin(0, false, false), begin(5, true, false)},
+                     number_bytes(2, 1) + number_bytes(9, 2)),
+            of_parts(1, {begin(3, true, true), begin(4, true, true)},
+                     number_bytes(1, 1) + number_bytes(17, 2) + number_bytes(0, 1) + number_bytes(5, 2)),
             of_parts(1, {begin(3, true, true), begin(4, false, true)}, ""),
             of_parts(0, {begin(std::numeric_limits<std::uint64_t>::max(), false, false), begin(7, false, false)}, ""),
             of_parts(0, {begin(60'000, false, false), begin(60'000, false, false)}, "")};

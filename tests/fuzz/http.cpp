@@ -119,8 +119,8 @@ Seeds http_seeds() {
         "POST /healthz HTTP/1.1\r\nHost: a\r\nContent-Length: 3\r\n\r\nabc",
         "GET / HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\n3\r\nabc\r\n0\r\n\r\n",
         "GET / HTTP/1.1\r\nHost: 10.0.0.1:9464\r\nAccept-Encoding: br, gzip;q=0.5\r\nIf-None-Match: W/\"1a\"\r\n\r\n",
-        "OPTIONS /meniscus.v1.SurfaceService/Watch HTTP/1.1\r\nHost: [::1]:9464\r\nOrigin: "
-        "http://localhost:5173\r\n\r\n",
+        std::string("OPTIONS /meniscus.v1.SurfaceService/Watch HTTP/1.1\r\nHost: [::1]:9464\r\n") +
+            "Origin: http://localhost:5173\r\n\r\n",
         file("manifest.json", "Range: bytes=2-99999999999999999999\r\nIf-Range: \"a\"\r\n"),
         file("manifest.json", "Origin: http://localhost\r\nRange: bytes=-0\r\n"),
         file("../%2e%2e/" + std::string(64, 'a') + ".segment", "If-None-Match: *\r\n"),

@@ -17,9 +17,11 @@ void add(Positions& positions, float x, float y, float z) {
 Positions evenly_spread(int count, float apart) {
     const int side = static_cast<int>(std::ceil(std::cbrt(count)));
     Positions positions;
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < count; ++i) {
+        const int layer = i / side / side;
         add(positions, apart * static_cast<float>(i % side), apart * static_cast<float>(i / side % side),
-            apart * static_cast<float>(i / side / side));
+            apart * static_cast<float>(layer));
+    }
     return positions;
 }
 
@@ -27,10 +29,12 @@ Positions clumps(int number, int of, float size) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> place(-size, size);
     Positions positions;
-    for (int c = 0; c < number; ++c)
+    for (int c = 0; c < number; ++c) {
+        const int row = c / 16;
         for (int i = 0; i < of; ++i)
             add(positions, 50.0F * static_cast<float>(c % 16) + place(random),
-                50.0F * static_cast<float>(c / 16) + place(random), place(random));
+                50.0F * static_cast<float>(row) + place(random), place(random));
+    }
     return positions;
 }
 

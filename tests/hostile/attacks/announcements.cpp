@@ -56,6 +56,7 @@ int refused_large_frames(const Target& target) {
     const std::vector<float> positions = block_of_particles(95);
     std::atomic<int> refused{0};
     std::vector<std::thread> senders;
+    senders.reserve(2);
     for (int i = 0; i < 2; ++i)
         senders.emplace_back([&] {
             client::Client client(target.address());
@@ -89,6 +90,7 @@ std::vector<Figure> announcements(const std::string& program) {
     const auto begin = Clock::now();
     std::atomic<double> longest{0.0};
     std::vector<std::thread> attackers;
+    attackers.reserve(2);
     for (int i = 0; i < 2; ++i)
         attackers.emplace_back([&] {
             client::Client own(target.address());

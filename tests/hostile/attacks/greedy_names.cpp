@@ -24,7 +24,7 @@ std::string tokens_file(const Folder& folder) {
 }
 
 std::string create(client::Client& client) {
-    const std::string id = client::new_session_id();
+    std::string id = client::new_session_id();
     client.create_session(id, settings_of_attacks());
     return id;
 }

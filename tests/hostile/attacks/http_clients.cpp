@@ -27,6 +27,7 @@ constexpr const char* id = "00000000-0000-4000-8000-00000000e7a6";
 /// Seconds until the last of many connections is cut that send a byte of a header every two seconds.
 double seconds_of_drips(const std::string& address) {
     std::vector<std::unique_ptr<HttpClient>> open;
+    open.reserve(drips);
     for (int i = 0; i < drips; ++i) open.push_back(std::make_unique<HttpClient>(address));
     const auto begin = Clock::now();
     for (const auto& each : open) each->send("GET /healthz HTTP/1.1\r\nHost: localhost\r\nX-Drip: ");

@@ -82,6 +82,7 @@ int left_by_killed(const std::string& simulator, const Target& target, const std
     client::Client client(target.address());
     for (int killed = 0; killed < kills; killed += at_a_time) {
         std::vector<std::unique_ptr<Simulator>> running;
+        running.reserve(at_a_time);
         for (int i = 0; i < at_a_time; ++i)
             running.push_back(
                 std::make_unique<Simulator>(simulator, target.address(), client::new_session_id(), policy));

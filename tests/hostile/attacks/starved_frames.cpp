@@ -52,6 +52,7 @@ std::vector<Figure> starved_frames(const std::string& program) {
     std::atomic<bool> stop{false};
     std::atomic<int> answered{0};
     std::vector<std::thread> busy;
+    busy.reserve(streams);
     for (int i = 0; i < streams; ++i) busy.emplace_back([&] { keep_busy(target.address(), stop, answered); });
     const auto wait_for = [&](int more) {
         const int enough = answered + more;
