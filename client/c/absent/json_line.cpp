@@ -48,7 +48,7 @@ private:
             if (peek() != '"') fail();
             const std::string inner = text();
             take(':');
-            value(name.empty() ? inner : name + "." + inner, depth + 1);
+            value(name.empty() ? inner : std::string(name).append(".").append(inner), depth + 1);
         }
         take('}');
     }

@@ -32,7 +32,8 @@ std::vector<std::string> words_of(std::string_view text) {
 
 void append(const std::string& name, const std::string& value, std::vector<std::string>& words) {
     if (name == attribute_option) {
-        for (const std::string& array : words_of(value)) words.push_back("--" + name + "=" + array);
+        for (const std::string& array : words_of(value))
+            words.push_back(std::string("--").append(name).append("=").append(array));
     } else if (name == box_option) {
         words.push_back("--" + name);
         for (const std::string& number : words_of(value)) words.push_back(number);

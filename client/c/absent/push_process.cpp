@@ -81,6 +81,7 @@ public:
 private:
     static std::vector<char*> pointers(std::vector<std::string>& texts) {
         std::vector<char*> out;
+        out.reserve(texts.size() + 1);
         for (std::string& text : texts) out.push_back(text.data());
         out.push_back(nullptr);
         return out;
@@ -121,7 +122,7 @@ std::string push_program(const char* function) {
     } else if (const char* const path = std::getenv("PATH")) {
         for (std::string_view rest = path; !rest.empty();) {
             const std::size_t size = std::min(rest.find(':'), rest.size());
-            const std::string candidate = std::string(rest.substr(0, size)) + "/meniscus";
+            std::string candidate = std::string(rest.substr(0, size)) + "/meniscus";
             if (size != 0 && is_program(candidate)) return candidate;
             rest.remove_prefix(std::min(size + 1, rest.size()));
         }
