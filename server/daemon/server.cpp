@@ -105,7 +105,7 @@ Observe observe_with(RecordingWriter* recordings, Publications* publications) {
 void keep_alive(grpc::ServerBuilder& builder) {
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 20'000);
-    // Clients ask as often; gRPC ends the connection of one that asks more often than this.
+    // Clients ask every minute; gRPC ends the connection of one that asks more often than this.
     builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 10'000);
 }
 

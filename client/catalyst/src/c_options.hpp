@@ -1,17 +1,10 @@
 // Options as the C interface takes them.
 #pragma once
 
-#include <memory>
-
-#include "meniscus/meniscus.h"
+#include "handles.hpp"
 #include "text_options/option_reader.hpp"
 
 namespace meniscus::catalyst {
-
-struct COptionsDestroyer {
-    void operator()(meniscus_options* options) const { meniscus_options_destroy(options); }
-};
-using COptions = std::unique_ptr<meniscus_options, COptionsDestroyer>;
 
 /// The names are known: the options were read. Without memory the call that they are for fails.
 inline COptions c_options(const text_options::Options& values) {

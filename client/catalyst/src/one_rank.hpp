@@ -8,7 +8,7 @@
 
 namespace meniscus::catalyst {
 
-inline meniscus_result open_parts_alone(const meniscus_options& options, meniscus_parts** parts) {
+inline meniscus_result open_parts_alone(const meniscus_options* options, meniscus_parts** parts) {
     const meniscus_exchange exchange{
         .struct_size = sizeof(meniscus_exchange),
         .rank = 0,
@@ -27,7 +27,7 @@ inline meniscus_result open_parts_alone(const meniscus_options& options, meniscu
             },
         .trade = [](void*, const void* const*, const std::uint64_t*, void* const*, const std::uint64_t*) { return 0; },
         .release = nullptr};
-    return meniscus_parts_open(&exchange, &options, parts);
+    return meniscus_parts_open(&exchange, options, parts);
 }
 
 }  // namespace meniscus::catalyst

@@ -25,7 +25,7 @@ public:
     std::array<int, 2> least(std::array<int, 2> numbers) const;
     void wait_for_all() const;
     /// meniscus_parts_create() for these ranks.
-    meniscus_result open_parts(const meniscus_options& options, meniscus_parts** parts) const;
+    meniscus_result open_parts(const meniscus_options* options, meniscus_parts** parts) const;
 
 private:
     struct Communicator;

@@ -42,7 +42,7 @@ std::array<int, 2> Ranks::least(std::array<int, 2> numbers) const {
     return numbers;
 }
 void Ranks::wait_for_all() const {}
-meniscus_result Ranks::open_parts(const meniscus_options& options, meniscus_parts** parts) const {
+meniscus_result Ranks::open_parts(const meniscus_options* options, meniscus_parts** parts) const {
     return open_parts_alone(options, parts);
 }
 

@@ -43,8 +43,8 @@ void Ranks::wait_for_all() const {
     if (size_ > 1) MPI_Barrier(communicator_->handle);
 }
 
-meniscus_result Ranks::open_parts(const meniscus_options& options, meniscus_parts** parts) const {
-    return size_ > 1 ? meniscus_parts_create(communicator_->handle, &options, parts) : open_parts_alone(options, parts);
+meniscus_result Ranks::open_parts(const meniscus_options* options, meniscus_parts** parts) const {
+    return size_ > 1 ? meniscus_parts_create(communicator_->handle, options, parts) : open_parts_alone(options, parts);
 }
 
 }  // namespace meniscus::catalyst

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "failure.hpp"
-#include "run_name.hpp"
 #include "server_away.hpp"
 
 namespace meniscus::catalyst {
@@ -15,10 +14,7 @@ constexpr double last_answers = 30.0;
 }  // namespace
 
 SessionFrames::SessionFrames(const RunOptions& options, const Ranks& ranks, Notices& notices)
-    : options_(options), ranks_(ranks), notices_(notices) {
-    const RunName name = draw_name(options, ranks);
-    id_ = name.session_id;
-    run_ = name.run;
+    : Frames(options, ranks, notices), run_(first_run()) {
     open(false);
     const bool refused = opening_->first_attempt() == SessionOpening::State::refused;
     if (ranks.least({refused ? 0 : 1, 0})[0] == 0)
@@ -29,7 +25,7 @@ SessionFrames::SessionFrames(const RunOptions& options, const Ranks& ranks, Noti
 
 void SessionFrames::open(bool again) {
     text_options::Options session = options_.session;
-    session.insert_or_assign("session", id_);
+    session.insert_or_assign("session", session_id());
     if (ranks_.size() > 1) {
         session.insert_or_assign("parts", std::to_string(ranks_.size()));
         session.insert_or_assign("part", std::to_string(ranks_.rank()));
@@ -42,16 +38,12 @@ void SessionFrames::lose(const std::string& why) {
     // Ours or not, it stays for those that watch it: an ephemeral one ends unless its stream comes again.
     meniscus_session_leave(session_.get());
     session_.reset();
-    awaited_since_ = why;
-    notices_.say(why + "; frames are left out until session " + id_ + " is open again");
+    say_away(why, "frames are left out until session " + session_id() + " is open again");
 }
 
 void SessionFrames::say_awaited() {
-    const std::string why = opening_->message();
-    if (why.empty() || why == awaited_since_) return;
-    awaited_since_ = why;
     const bool refused = opening_->state() == SessionOpening::State::refused;
-    notices_.say(why + (refused ? "; no frames are sent" : "; frames are left out until the server is there"));
+    say_away(opening_->message(), refused ? "no frames are sent" : "frames are left out until the server is there");
 }
 
 void SessionFrames::take_answers() {
@@ -68,12 +60,7 @@ SessionFrames::State SessionFrames::look() {
     if (opening_ && opening_->state() == SessionOpening::State::open) {
         session_ = opening_->take();
         opening_.reset();
-        awaited_since_.clear();
-        if (ranks_.rank() == 0)
-            notices_.say(
-                "frames go to session " + id_ + " on " + options_.server +
-                (left_out_meanwhile_ == 0 ? "" : "; " + std::to_string(left_out_meanwhile_) + " were left out"));
-        left_out_meanwhile_ = 0;
+        say_open("frames");
     }
     return session_ != nullptr ? State::open : opening_ ? State::awaited : State::lost;
 }
@@ -89,19 +76,11 @@ void SessionFrames::push(const meniscus_particles* particles, std::uint64_t inde
     } else if (here == State::awaited) {
         say_awaited();
     }
-    if (state != State::open || all_have_frames == 0) {
-        ++left_out_;
-        if (state != State::open) ++left_out_meanwhile_;
-        return;
-    }
+    if (state != State::open || all_have_frames == 0) return count_left_out(state != State::open);
     const meniscus_result result = meniscus_session_push(session_.get(), particles, index, simulation_time);
-    if (result == MENISCUS_OK) {
-        ++sent_;
-        return;
-    }
-    ++left_out_;
+    if (result == MENISCUS_OK) return count_sent();
+    count_left_out(is_away(result));
     if (!is_away(result)) throw Failure(result, meniscus_error_message());
-    ++left_out_meanwhile_;
     lose(meniscus_error_message());
 }
 
@@ -119,8 +98,7 @@ void SessionFrames::finish() {
     ranks_.wait_for_all();  // one of them has made the session, and ends it
     session_.reset();
     opening_.reset();
-    if (left_out_ != 0 && ranks_.rank() == 0)
-        notices_.say(std::to_string(left_out_) + " frames were left out, " + std::to_string(sent_) + " were sent");
+    say_counts();
 }
 
 }  // namespace meniscus::catalyst

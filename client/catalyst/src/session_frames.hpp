@@ -1,14 +1,10 @@
-// Where frames go: to a session of a meniscusd, in parts if there are several ranks.
+// Particles for a session, whose server makes the surface: in parts if there are several ranks.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 
 #include "frames.hpp"
-#include "notices.hpp"
-#include "ranks.hpp"
-#include "run_options.hpp"
 #include "session_opening.hpp"
 
 namespace meniscus::catalyst {
@@ -23,9 +19,6 @@ public:
 
     void push(const meniscus_particles* particles, std::uint64_t index, double simulation_time) override;
     void finish() override;
-    const std::string& session_id() const noexcept override { return id_; }
-    std::uint64_t sent() const noexcept override { return sent_; }
-    std::uint64_t left_out() const noexcept override { return left_out_; }
 
 private:
     enum class State { lost, awaited, open };
@@ -39,17 +32,9 @@ private:
     /// Says why the server is awaited, if that was not said of this time.
     void say_awaited();
 
-    const RunOptions& options_;
-    const Ranks& ranks_;
-    Notices& notices_;
-    std::string id_;
-    std::uint64_t run_ = 0;
+    std::uint64_t run_;
     std::optional<SessionOpening> opening_;
     Session session_;
-    std::string awaited_since_;  ///< what was said of it
-    std::uint64_t left_out_meanwhile_ = 0;
-    std::uint64_t sent_ = 0;
-    std::uint64_t left_out_ = 0;
 };
 
 }  // namespace meniscus::catalyst

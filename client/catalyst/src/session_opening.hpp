@@ -2,23 +2,15 @@
 #pragma once
 
 #include <condition_variable>
-#include <memory>
 #include <mutex>
 #include <stop_token>
 #include <string>
 #include <thread>
 
-#include "meniscus/meniscus.h"
+#include "handles.hpp"
 #include "text_options/option_reader.hpp"
 
 namespace meniscus::catalyst {
-
-template <class Handle, void (*destroy)(Handle*)>
-struct Destroyer {
-    void operator()(Handle* handle) const { destroy(handle); }
-};
-using Session = std::unique_ptr<meniscus_session, Destroyer<meniscus_session, meniscus_session_destroy>>;
-using Client = std::unique_ptr<meniscus_client, Destroyer<meniscus_client, meniscus_client_destroy>>;
 
 class SessionOpening {
 public:

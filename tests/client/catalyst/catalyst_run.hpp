@@ -61,10 +61,8 @@ inline Results results() {
             number("meniscus/frames_left_out")};
 }
 
-/// A channel's mesh of points, without coordinates yet; and the frame's state.
-inline conduit_node& points_mesh(conduit_node& params, std::int64_t timestep, const std::string& channel = "fluid") {
-    params["catalyst/state/timestep"].set(timestep);
-    params["catalyst/state/time"].set(0.5 * static_cast<double>(timestep));
+/// A channel's mesh of points, without coordinates yet.
+inline conduit_node& channel_of_points(conduit_node& params, const std::string& channel) {
     conduit_node& root = params["catalyst/channels/" + channel];
     root["type"].set(std::string("mesh"));
     conduit_node& mesh = root["data"];
@@ -72,6 +70,13 @@ inline conduit_node& points_mesh(conduit_node& params, std::int64_t timestep, co
     mesh["topologies/particles/type"].set(std::string("points"));
     mesh["topologies/particles/coordset"].set(std::string("coords"));
     return mesh;
+}
+
+/// The same, with the frame's state.
+inline conduit_node& points_mesh(conduit_node& params, std::int64_t timestep, const std::string& channel = "fluid") {
+    params["catalyst/state/timestep"].set(timestep);
+    params["catalyst/state/time"].set(0.5 * static_cast<double>(timestep));
+    return channel_of_points(params, channel);
 }
 
 /// Borrows x y z of each particle, together.

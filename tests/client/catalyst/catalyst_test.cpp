@@ -1,82 +1,16 @@
 // libcatalyst-meniscus.so in a simulation of one process.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
-#include "../c/through_server.hpp"
-#include "catalyst_run.hpp"
+#include "catalyst_fixture.hpp"
 #include "meniscus/meniscus.hpp"
 #include "support/particles.hpp"
 
 namespace meniscus::test {
 namespace {
-
-/// How often a text says something.
-std::size_t times(const std::string& text, const std::string& words) {
-    std::size_t count = 0;
-    for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
-    return count;
-}
-
-class Catalyst : public CThroughServer {
-protected:
-    ~Catalyst() override { finalize(); }
-
-    std::string options(const std::string& more = "") const {
-        return "server=" + address_ + " particle-radius=0.025 policy=every-frame " + more;
-    }
-    void start(const std::string& more = "") {
-        set_options(options(more));
-        ASSERT_EQ(initialize(), catalyst_status_ok);
-    }
-    static int execute_frame(const Particles& particles, std::int64_t step) {
-        conduit_node params;
-        set_positions(points_mesh(params, step), particles.positions);
-        return execute(params);
-    }
-    CWatcher watch(const char* attributes = nullptr, const char* session_id = nullptr) {
-        CWatcher watcher;
-        const std::string own = session_id == nullptr ? results().session : session_id;
-        const COptions wishes = options_of({{"attribute-bits", "0"}});
-        EXPECT_EQ(meniscus_options_set(wishes.get(), "attribute", attributes), MENISCUS_OK);
-        EXPECT_EQ(meniscus_watcher_open(client_.get(), own.c_str(), wishes.get(), watcher.out()), MENISCUS_OK)
-            << meniscus_error_message();
-        return watcher;
-    }
-    static CFrame next(const CWatcher& watcher, std::uint64_t expected_index) {
-        CFrame frame;
-        EXPECT_EQ(meniscus_watcher_next(watcher.get(), patience, frame.out()), MENISCUS_OK) << meniscus_error_message();
-        std::uint64_t index = 0;
-        EXPECT_EQ(meniscus_frame_index(frame.get(), &index), MENISCUS_OK);
-        EXPECT_EQ(index, expected_index);
-        return frame;
-    }
-    static std::string expected(const Particles& particles) {
-        return mesh_sha256(reconstruct(default_settings(), particles.frame()));
-    }
-    /// Whether an implementation refuses to begin with these words on the standard error output.
-    static testing::AssertionResult refuses(const std::string& options, const std::string& words,
-                                            int status = status_of(MENISCUS_INVALID_INPUT)) {
-        set_options(options);
-        testing::internal::CaptureStderr();
-        const int got = initialize();
-        const std::string said = testing::internal::GetCapturedStderr();
-        if (got != status) return testing::AssertionFailure() << "status " << got << ": " << said;
-        if (said.find(words) == std::string::npos) return testing::AssertionFailure() << "said: " << said;
-        return testing::AssertionSuccess();
-    }
-    static testing::AssertionResult refuses_frame(conduit_node& params, const std::string& words) {
-        testing::internal::CaptureStderr();
-        const int got = execute(params);
-        const std::string said = testing::internal::GetCapturedStderr();
-        if (got != status_of(MENISCUS_INVALID_INPUT)) return testing::AssertionFailure() << "status " << got << said;
-        if (said.find(words) == std::string::npos) return testing::AssertionFailure() << "said: " << said;
-        return testing::AssertionSuccess();
-    }
-};
 
 TEST_F(Catalyst, TakesPositionsInEveryLayoutToTheSameMesh) {
     start();
@@ -310,12 +244,8 @@ TEST_F(Catalyst, CountsRefusedFramesWhereNoStateNumbersThem) {
     for (std::uint64_t frame = 0; frame < 5; ++frame) {
         const bool is_wrong = frame % 2 == 1;
         conduit_node params;
-        conduit_node& root = params["catalyst/channels/fluid"];
-        root["type"].set(std::string("mesh"));
-        conduit_node& mesh = root["data"];
-        mesh["coordsets/coords/type"].set(std::string("explicit"));
-        mesh["topologies/particles/type"].set(std::string("points"));
-        mesh["topologies/particles/coordset"].set(std::string(is_wrong ? "others" : "coords"));
+        conduit_node& mesh = channel_of_points(params, "fluid");
+        if (is_wrong) mesh["topologies/particles/coordset"].set(std::string("others"));
         set_positions(mesh, particles.positions);
         EXPECT_EQ(execute(params), is_wrong ? status_of(MENISCUS_INVALID_INPUT) : catalyst_status_ok);
         if (is_wrong) continue;
@@ -403,45 +333,6 @@ TEST_F(Catalyst, RefusesWrongOptions) {
     EXPECT_EQ(initialize(), status_of(MENISCUS_FAILED_PRECONDITION));
 }
 
-TEST_F(Catalyst, AServerThatIsAwayStopsNothingAndIsSaidOnce) {
-    const std::string address = address_;
-    process_.signal(SIGTERM);
-    process_.exit_code();
-    testing::internal::CaptureStderr();
-    start();
-    const Particles particles = splash(1, 4);
-    std::int64_t step = 0;
-    const auto give = [&] { return execute_frame(particles, step++); };
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(give(), catalyst_status_ok);
-    EXPECT_EQ(results().left_out, 3);
-    EXPECT_EQ(results().sent, 0);
-    std::string said = testing::internal::GetCapturedStderr();
-    EXPECT_EQ(times(said, "frames are left out until"), 1U) << said;
-
-    const auto goes_on = [&] {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-        const std::int64_t before = results().sent;
-        while (results().sent == before && std::chrono::steady_clock::now() < end)
-            if (give() != catalyst_status_ok) return false;
-        return results().sent > before;
-    };
-    testing::internal::CaptureStderr();
-    for (int i = 0; i < 2; ++i) {
-        server::test::Process back({"--listen", address, "--threads", "2"});
-        EXPECT_EQ(back.address(), address);
-        ASSERT_TRUE(goes_on());
-        CClient client;
-        ASSERT_EQ(meniscus_client_connect(address.c_str(), nullptr, client.out()), MENISCUS_OK);
-        CWatcher watcher;
-        ASSERT_EQ(meniscus_watcher_open(client.get(), results().session.c_str(), nullptr, watcher.out()), MENISCUS_OK)
-            << meniscus_error_message();
-        EXPECT_EQ(sha256_of(next(watcher, static_cast<std::uint64_t>(step - 1))), expected(particles));
-    }
-    EXPECT_EQ(finalize(), catalyst_status_ok);
-    said = testing::internal::GetCapturedStderr();
-    EXPECT_EQ(times(said, "frames go to session"), 2U) << said;
-}
-
 TEST_F(Catalyst, MakesSurfacesItselfWhereItIsToldTo) {
     start("reconstruct-ranks=all threads=1 attribute=heat");
     const CWatcher watcher = watch("heat");
@@ -462,44 +353,13 @@ TEST_F(Catalyst, MakesSurfacesItselfWhereItIsToldTo) {
         conduit_node params;
         conduit_node& mesh = points_mesh(params, static_cast<std::int64_t>(step));
         set_positions(mesh, frames[step].positions);
-        mesh["fields/heat/association"].set(std::string("vertex"));
-        mesh["fields/heat/topology"].set(std::string("particles"));
-        mesh["fields/heat/values"].point(heat.data(), frames[step].count());
+        point_field(mesh, "heat").point(heat.data(), frames[step].count());
         EXPECT_EQ(execute(params), catalyst_status_ok);
         if (step > 0) expect(step - 1);
     }
     EXPECT_EQ(results().sent, 4);
     EXPECT_EQ(finalize(), catalyst_status_ok);
     expect(3);
-}
-
-TEST_F(Catalyst, AsksAgainForAServerThatIsAwayWhereItMakesSurfaces) {
-    const std::string address = address_;
-    process_.signal(SIGTERM);
-    process_.exit_code();
-    testing::internal::CaptureStderr();
-    start("reconstruct-ranks=all threads=1");
-    const Particles particles = splash(1, 4);
-    std::int64_t step = 0;
-    const auto give = [&] { return execute_frame(particles, step++); };
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(give(), catalyst_status_ok);
-    EXPECT_EQ(results().left_out, 3);
-    EXPECT_EQ(results().sent, 0);
-    server::test::Process back({"--listen", address, "--threads", "2"});
-    EXPECT_EQ(back.address(), address);
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (results().sent < 2 && std::chrono::steady_clock::now() < end) ASSERT_EQ(give(), catalyst_status_ok);
-    CClient client;
-    ASSERT_EQ(meniscus_client_connect(address.c_str(), nullptr, client.out()), MENISCUS_OK);
-    CWatcher watcher;
-    ASSERT_EQ(meniscus_watcher_open(client.get(), results().session.c_str(), nullptr, watcher.out()), MENISCUS_OK)
-        << meniscus_error_message();
-    CFrame frame;
-    ASSERT_EQ(meniscus_watcher_next(watcher.get(), patience, frame.out()), MENISCUS_OK) << meniscus_error_message();
-    EXPECT_EQ(sha256_of(frame), expected(particles));
-    EXPECT_EQ(finalize(), catalyst_status_ok);
-    const std::string said = testing::internal::GetCapturedStderr();
-    EXPECT_EQ(times(said, "surfaces of the ranks go to session"), 1U) << said;
 }
 
 TEST_F(Catalyst, SaysWhatItIs) {

@@ -60,6 +60,12 @@ protected:
     std::string options() const {
         return "server=" + address_ + " particle-radius=0.025 policy=every-frame session=" + session_id;
     }
+    /// All frames so far have been sent.
+    static void execute_well(Simulation& simulation, std::int64_t step) {
+        const auto answer = simulation.execute(step);
+        EXPECT_EQ(answer.status, 0);
+        EXPECT_EQ(answer.sent, step);
+    }
     void expect_frame(const CWatcher& watcher, std::int64_t step) {
         CFrame frame;
         ASSERT_EQ(meniscus_watcher_next(watcher.get(), patience, frame.out()), MENISCUS_OK) << meniscus_error_message();
@@ -76,9 +82,7 @@ TEST_F(CatalystRanks, PushTheFramesOfOneProcessInParts) {
     ASSERT_EQ(simulation.answer().status, 0);
     const CWatcher watcher = watch(session_id);
     for (std::int64_t step = 1; step <= 5; ++step) {
-        const auto answer = simulation.execute(step);
-        EXPECT_EQ(answer.status, 0);
-        EXPECT_EQ(answer.sent, step);
+        execute_well(simulation, step);
         expect_frame(watcher, step);
     }
     simulation.end();
@@ -92,9 +96,7 @@ TEST_F(CatalystRanks, MakeTheSurfaceOfOneProcessThemselves) {
         ASSERT_EQ(simulation.answer().status, 0);
         const CWatcher watcher = watch(session_id);
         for (std::int64_t step = 1; step <= 5; ++step) {
-            const auto answer = simulation.execute(step);
-            EXPECT_EQ(answer.status, 0);
-            EXPECT_EQ(answer.sent, step);
+            execute_well(simulation, step);
             if (step > 1) expect_frame(watcher, step - 1);
         }
         simulation.end();
@@ -119,7 +121,7 @@ TEST_F(CatalystRanks, MakeSurfacesAgainAfterTheSessionHasBeenEnded) {
         result = meniscus_watcher_open(client_.get(), session_id, nullptr, watcher.out());
         if (result != MENISCUS_OK) continue;
         CFrame frame;
-        result = meniscus_watcher_next(watcher.get(), 1.0, frame.out());
+        result = meniscus_watcher_next(watcher.get(), patience, frame.out());
         std::uint64_t index = 0;
         if (result != MENISCUS_OK || meniscus_frame_index(frame.get(), &index) != MENISCUS_OK) continue;
         const Particles whole = splash(static_cast<unsigned>(index), 5);
