@@ -8,20 +8,28 @@
 namespace meniscus::test {
 namespace {
 
-using CatalystAway = Catalyst;
+/// Its server has gone when the simulation starts.
+class CatalystAway : public Catalyst {
+protected:
+    CatalystAway() {
+        process_.signal(SIGTERM);
+        process_.exit_code();
+        testing::internal::CaptureStderr();
+    }
+    int give() { return execute_frame(particles_, step_++); }
+    void expect_that_frames_are_left_out() {
+        for (int i = 0; i < 3; ++i) EXPECT_EQ(give(), catalyst_status_ok);
+        EXPECT_EQ(results().left_out, 3);
+        EXPECT_EQ(results().sent, 0);
+    }
+
+    const Particles particles_ = splash(1, 4);
+    std::int64_t step_ = 0;
+};
 
 TEST_F(CatalystAway, StopsNothingAndIsSaidOnce) {
-    const std::string address = address_;
-    process_.signal(SIGTERM);
-    process_.exit_code();
-    testing::internal::CaptureStderr();
     start();
-    const Particles particles = splash(1, 4);
-    std::int64_t step = 0;
-    const auto give = [&] { return execute_frame(particles, step++); };
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(give(), catalyst_status_ok);
-    EXPECT_EQ(results().left_out, 3);
-    EXPECT_EQ(results().sent, 0);
+    expect_that_frames_are_left_out();
     std::string said = testing::internal::GetCapturedStderr();
     EXPECT_EQ(times(said, "frames are left out until"), 1U) << said;
 
@@ -34,11 +42,11 @@ TEST_F(CatalystAway, StopsNothingAndIsSaidOnce) {
     };
     testing::internal::CaptureStderr();
     for (int i = 0; i < 2; ++i) {
-        server::test::Process back({"--listen", address, "--threads", "2"});
-        EXPECT_EQ(back.address(), address);
+        server::test::Process back({"--listen", address_, "--threads", "2"});
+        EXPECT_EQ(back.address(), address_);
         ASSERT_TRUE(goes_on());
-        const CWatcher watcher = watch_on(address);
-        EXPECT_EQ(sha256_of(next(watcher, static_cast<std::uint64_t>(step - 1))), expected(particles));
+        const CWatcher watcher = watch_on(address_);
+        EXPECT_EQ(sha256_of(next(watcher, static_cast<std::uint64_t>(step_ - 1))), expected(particles_));
     }
     EXPECT_EQ(finalize(), catalyst_status_ok);
     said = testing::internal::GetCapturedStderr();
@@ -46,17 +54,8 @@ TEST_F(CatalystAway, StopsNothingAndIsSaidOnce) {
 }
 
 TEST_F(CatalystAway, IsAskedForAgainBySurfacesToo) {
-    const std::string address = address_;
-    process_.signal(SIGTERM);
-    process_.exit_code();
-    testing::internal::CaptureStderr();
     start("reconstruct-ranks=all threads=1");
-    const Particles particles = splash(1, 4);
-    std::int64_t step = 0;
-    const auto give = [&] { return execute_frame(particles, step++); };
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(give(), catalyst_status_ok);
-    EXPECT_EQ(results().left_out, 3);
-    EXPECT_EQ(results().sent, 0);
+    expect_that_frames_are_left_out();
 
     // What a frame lacks is told two frames later.
     const auto goes_on = [&] {
@@ -70,13 +69,13 @@ TEST_F(CatalystAway, IsAskedForAgainBySurfacesToo) {
         return results().left_out == left_out;
     };
     for (int i = 0; i < 2; ++i) {
-        server::test::Process back({"--listen", address, "--threads", "2"});
-        EXPECT_EQ(back.address(), address);
+        server::test::Process back({"--listen", address_, "--threads", "2"});
+        EXPECT_EQ(back.address(), address_);
         ASSERT_TRUE(goes_on());
-        const CWatcher watcher = watch_on(address);
+        const CWatcher watcher = watch_on(address_);
         CFrame frame;
         ASSERT_EQ(meniscus_watcher_next(watcher.get(), patience, frame.out()), MENISCUS_OK) << meniscus_error_message();
-        EXPECT_EQ(sha256_of(frame), expected(particles));
+        EXPECT_EQ(sha256_of(frame), expected(particles_));
     }
     EXPECT_EQ(finalize(), catalyst_status_ok);
     const std::string said = testing::internal::GetCapturedStderr();
