@@ -23,7 +23,7 @@ PartsJob::PartsJob(PartExchange& exchange, bool leads_node, const text_options::
     std::optional<PartsArguments> arguments;
     const std::vector<std::string> all = agreed(exchange_, [&] {
         arguments = parts_arguments(options);
-        publisher_.emplace(*arguments);
+        publisher_ = make_publisher(*arguments);
         return std::to_string(drawn_run()) + (leads_node ? "+" : "-") + arguments->common;
     });
     std::vector<bool> lead_nodes;
@@ -38,6 +38,7 @@ PartsJob::PartsJob(PartExchange& exchange, bool leads_node, const text_options::
                                options_of.back() + ", and rank 0 has " + options_of.front() +
                                ": all must have the same, but for the server, the connection and the backend");
     }
+    has_server_ = arguments->output.empty();
     const std::vector<std::size_t> makers = ranks_of(arguments->makers, lead_nodes);
     agreed(exchange_, [&] {
         live_.emplace(arguments->settings, arguments->backend, PartsOptions{makers.size(), arguments->overlap, makers},
@@ -51,10 +52,7 @@ void PartsJob::open_session(const std::vector<std::size_t>& makers, std::uint64_
     const auto own = std::find(makers.begin(), makers.end(), exchange_.rank());
     is_maker_ = own != makers.end();
     const auto number = static_cast<std::size_t>(own - makers.begin());
-    const auto open = [&] {
-        publisher_->open(number, makers.size(), run, session_id_);
-        return publisher_->session_id();
-    };
+    const auto open = [&] { return publisher_->open({number, makers.size(), run, session_id_}); };
     session_id_ = agreed(exchange_, [&] { return number == 0 ? open() : std::string(); })[makers[0]];
     agreed(exchange_, [&] { return is_maker_ && number != 0 ? open() : std::string(); });
 }
@@ -64,6 +62,7 @@ auto PartsJob::in_words_of_server(const Call& call) {
     try {
         return call();
     } catch (const PublishingFailed& failure) {
+        if (!has_server_) throw;
         throw client::ServerError(failure.what(), client::ErrorCode::unavailable);
     }
 }

@@ -1,8 +1,9 @@
-// The frames of a job's ranks, of which some make parts and publish them to a session that they share.
+// The frames of a job's ranks, of which some make parts and publish them to a session or a folder that they share.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,10 +24,12 @@ public:
     /// and publisher, and see PartsArguments. Throws InvalidInput for these, and what opening the session throws.
     PartsJob(PartExchange& exchange, bool leads_node, const text_options::Options& options);
 
-    /// As LiveParts::push(), with client::ServerError in place of PublishingFailed. mine: may throw.
+    /// As LiveParts::push(), with client::ServerError in place of a session's PublishingFailed. mine: may throw.
     bool push(const FrameGiver& mine, std::uint64_t index, double simulation_time);
-    /// Publishes what was pushed, and waits until the server has answered. No frame may follow once it has.
+    /// Publishes what was pushed, and waits until the server has answered, or the files are listed. No frame may follow
+    /// once it has.
     void finish();
+    /// Empty where files are written.
     const std::string& session_id() const { return session_id_; }
     std::uint64_t next_index() const { return live_->next_index(); }
     std::uint64_t dropped() const { return live_->dropped(); }
@@ -38,9 +41,10 @@ private:
     auto in_words_of_server(const Call& call);
 
     PartExchange& exchange_;
-    std::optional<PartsPublisher> publisher_;
+    std::unique_ptr<PartsPublisher> publisher_;
     std::optional<LiveParts> live_;  ///< goes first
     std::string session_id_;
+    bool has_server_ = true;
     bool is_maker_ = false;
     bool is_finished_ = false;
 };

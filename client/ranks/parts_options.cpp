@@ -1,5 +1,6 @@
 #include "ranks/parts_options.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -33,10 +34,33 @@ void refuse_of_ranks(const Options& options) {
             throw InvalidInput("option '" + std::string(name) + "' is not known here: the ranks agree on it");
 }
 
+/// Throws unless frames go to one place.
+void require_one_place(const PartsArguments& arguments) {
+    if (arguments.server.empty() && arguments.output.empty())
+        throw InvalidInput("option 'server' is not set, must be HOST:PORT; or 'output', a folder of files");
+    if (!arguments.server.empty() && !arguments.output.empty())
+        throw InvalidInput("options 'server' and 'output' are both set, must be one of them");
+}
+
+/// Throws for what files have no place for.
+void refuse_of_sessions(const PartsArguments& arguments) {
+    if (arguments.settings.spray == Spray::points)
+        throw InvalidInput(
+            "option 'spray' is 'points', which the files of 'output' have no place for: must be keep or discard");
+    OptionReader settings(&arguments.session);
+    text_options::read_settings(settings);
+    for (const Options* const options : {&arguments.connection, &arguments.session})
+        for (const auto& option : *options)
+            if (std::ranges::find(settings.known(), option.first) == settings.known().end())
+                throw InvalidInput("option '" + option.first +
+                                   "' is of servers, and 'output' writes files: leave it out");
+}
+
 }  // namespace
 
 void read_parts_options(OptionReader& options, PartsArguments& arguments) {
     options.read("server", arguments.server);
+    options.read("output", arguments.output);
     options.read("overlap", arguments.overlap);
     if (const std::string* const ranks = options.find("reconstruct-ranks")) {
         arguments.makers.of_nodes = *ranks == "node";
@@ -52,9 +76,9 @@ PartsArguments parts_arguments(const Options& options) {
     PartsArguments out;
     OptionReader reader(&options);
     read_parts_options(reader, out);
-    if (out.server.empty()) throw InvalidInput("option 'server' is not set, must be HOST:PORT");
+    require_one_place(out);
     out.backend = text_options::read_backend(reader);
-    out.backend.keep_lattice = true;
+    out.backend.keep_lattice = out.output.empty();  // for the codec
     client::PublisherOptions publisher;
     out.connection = some_of(options, [](OptionReader& some) { text_options::read_connection(some); });
     out.session = some_of(options, [&](OptionReader& some) {
@@ -72,6 +96,7 @@ PartsArguments parts_arguments(const Options& options) {
     if (publisher.policy == client::UploadPolicy::every_nth)
         throw InvalidInput("option 'policy' is 'every-nth', must be latest or every-frame");
     if (has_policy && publisher.policy == client::UploadPolicy::every_frame) out.policy = LivePolicy::every_frame;
+    if (!out.output.empty()) refuse_of_sessions(out);
     out.coding.normal_bits = publisher.normal_bits;
     out.coding.codec = publisher.codec;
     out.wishes = {{{}, publisher.attribute_bits}};

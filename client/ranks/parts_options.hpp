@@ -23,6 +23,7 @@ struct Makers {
 
 struct PartsArguments {
     std::string server;
+    std::string output;  ///< a folder of files in place of the server; empty: none
     text_options::Options connection;
     text_options::Options session;  ///< and of its publisher, with the settings
     Settings settings;

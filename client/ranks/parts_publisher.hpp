@@ -1,51 +1,52 @@
-// A rank's publisher of the parts that it makes.
+// A rank's publisher of the parts that it makes: it pauses where publishing has failed, longer each time.
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 
 #include "meniscus/live_parts.hpp"
-#include "ranks/brick_upload.hpp"
 #include "ranks/parts_options.hpp"
 
 namespace meniscus::ranks {
 
-class PartsPublisher final : public LivePublisher {
+/// Which of the makers a publisher is of, and what they share.
+struct MakerPlace {
+    std::size_t number = 0;  ///< from 0
+    std::size_t makers = 1;
+    std::uint64_t run = 1;   ///< names the job's frames
+    std::string session_id;  ///< that the first maker has opened; empty for the first itself
+};
+
+class PartsPublisher : public LivePublisher {
 public:
-    explicit PartsPublisher(const PartsArguments& arguments);
+    /// Returns the session's id, empty where there is no session. Throws what hinders it.
+    virtual std::string open(const MakerPlace& place) = 0;
+    /// Waits until all that was published is where it goes, of all makers.
+    virtual void finish() = 0;
 
-    /// part: the number of this publisher, from 0. parts: the number of publishers. run: names the job's frames.
-    /// session_id: empty for that of the options, or a new one. Throws as open_brick_upload().
-    void open(std::size_t part, std::size_t parts, std::uint64_t run, const std::string& session_id);
-    const std::string& session_id() const { return session_id_; }
-    /// Waits until all is answered.
-    void finish();
-
-    /// Opens the session again, if it is not open.
-    void publish(const LivePart& part) override;
-    void abandon() noexcept override;
-    bool is_away() const noexcept override { return Clock::now() < next_attempt_; }
+    void publish(const LivePart& part) final {
+        show(part);
+        pause_ = first_pause;
+    }
+    void abandon() noexcept final;
+    bool is_away() const noexcept final { return Clock::now() < next_attempt_; }
 
 private:
     using Clock = std::chrono::steady_clock;
-    static constexpr std::chrono::seconds first_pause{1}, longest_pause{30};
+    static constexpr std::chrono::seconds first_pause{1};
 
-    void open();
-    client::ReceivedFrame encoded(const LivePart& part) const;
+    virtual void show(const LivePart& part) = 0;
+    /// Of the frame that was shown last some part is missing, and a pause begins.
+    virtual void leave() noexcept = 0;
 
-    std::string server_;
-    text_options::Options connection_, session_;
-    CodingOptions coding_;
-    std::vector<AttributeWish> wishes_;
-    Mesh empty_;  ///< of a rank that has no part of a frame
-    Statistics of_empty_;
-    std::string session_id_;
-    std::uint64_t run_ = 0;
-    std::unique_ptr<BrickUpload> upload_;
     std::chrono::seconds pause_ = first_pause;
     Clock::time_point next_attempt_{};
 };
+
+/// Of a session, or of files.
+std::unique_ptr<PartsPublisher> make_publisher(const PartsArguments& arguments);
 
 }  // namespace meniscus::ranks

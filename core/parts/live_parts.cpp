@@ -150,9 +150,10 @@ private:
     void publish(const Frame& frame) {
         try {
             const PartsReport report = parts_.report();
-            LivePart part{frame.index, frame.simulation_time, nullptr, {}, report};
+            LivePart part{frame.index, frame.simulation_time, nullptr, 0, {}, report};
             if (has_part_) {
                 part.mesh = &made_.mesh;
+                part.number = made_.part;
                 part.statistics = share_of(report, made_);
             }
             publisher_.publish(part);

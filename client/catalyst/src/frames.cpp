@@ -13,7 +13,8 @@ void Frames::count_left_out(bool is_away) {
 void Frames::say_open(const std::string& what) {
     said_.clear();
     if (ranks_.rank() == 0)
-        notices_.say(what + " go to session " + session_id() + " on " + options_.server +
+        notices_.say(what + " go to " +
+                     (output().empty() ? "session " + session_id() + " on " + options_.server : output()) +
                      (left_out_meanwhile_ == 0 ? "" : "; " + std::to_string(left_out_meanwhile_) + " were left out"));
     left_out_meanwhile_ = 0;
 }

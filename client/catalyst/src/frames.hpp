@@ -1,4 +1,4 @@
-// Where the frames of a simulation go: to a session of a meniscusd.
+// Where the frames of a simulation go: to a session of a meniscusd, or to files.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +26,8 @@ public:
     virtual void finish() = 0;
 
     const std::string& session_id() const noexcept { return name_.session_id; }
+    /// A folder of files, in place of the session; empty: none.
+    const std::string& output() const noexcept { return options_.output; }
     std::uint64_t sent() const noexcept { return sent_; }
     /// Frames that were left out: the server was away, a rank had none, or another one was being made.
     std::uint64_t left_out() const noexcept { return left_out_; }

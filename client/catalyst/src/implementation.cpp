@@ -78,7 +78,10 @@ catalyst_status about(conduit_node* params) {
 catalyst_status results(conduit_node* params) {
     return guarded([&] {
         const Frames& frames = running().frames();
-        catalyst_conduit_node_set_path_char8_str(params, "meniscus/session", frames.session_id().c_str());
+        if (frames.output().empty())
+            catalyst_conduit_node_set_path_char8_str(params, "meniscus/session", frames.session_id().c_str());
+        else
+            catalyst_conduit_node_set_path_char8_str(params, "meniscus/output", frames.output().c_str());
         catalyst_conduit_node_set_path_int64(params, "meniscus/frames_sent", static_cast<std::int64_t>(frames.sent()));
         catalyst_conduit_node_set_path_int64(params, "meniscus/frames_left_out",
                                              static_cast<std::int64_t>(frames.left_out()));

@@ -1,4 +1,4 @@
-// Surfaces that the ranks make themselves (meniscus/mpi.h), for a session.
+// Surfaces that the ranks make themselves (meniscus/mpi.h), for a session or as files.
 #pragma once
 
 #include <chrono>

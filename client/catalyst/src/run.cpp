@@ -45,7 +45,8 @@ Run::Run(const Node& params, const char* environment) : ranks_(communicator(para
     }
     // Ranks that make surfaces meet in other calls than those that do not.
     if (ranks_.least({options_.makes_surfaces ? 1 : 0, options_.makes_surfaces ? 0 : 1}) == std::array{0, 0})
-        throw InvalidInput("option 'reconstruct-ranks' is set on some ranks alone, must be the same on all");
+        throw InvalidInput(
+            "option 'reconstruct-ranks' or 'output' is set on some ranks alone, must be the same on all");
     if (params.at("catalyst/pipelines")) notices_.say_once("catalyst/pipelines is passed over: none are run here");
     if (options_.makes_surfaces)
         frames_ = std::make_unique<PartsFrames>(options_, ranks_, notices_);

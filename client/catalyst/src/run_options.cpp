@@ -85,16 +85,18 @@ RunOptions read_run_options(const Node& params, const char* environment, Notices
         options.insert_or_assign(name, std::move(value));
     }
     RunOptions run;
-    run.makes_surfaces = options.contains("reconstruct-ranks");
+    run.makes_surfaces = options.contains("reconstruct-ranks") || options.contains("output");
     options.try_emplace("policy", "latest");
     if (!run.makes_surfaces) options.try_emplace("meshes", "false");
     run.server = taken(options, "server");
+    run.output = taken(options, "output");
     run.channel = taken(options, "channel");
-    if (run.server.empty())
-        throw InvalidInput(
-            "option 'server' is missing, must be HOST:PORT of a meniscusd, as in "
-            "MENISCUS_CATALYST=\"server=127.0.0.1:50051 "
-            "particle-radius=0.025\"; without a server, write the particles to files, for meniscus reconstruct");
+    if (run.server.empty() == run.output.empty())
+        throw InvalidInput(std::string("options 'server' and 'output' are ") +
+                           (run.server.empty() ? "missing" : "both set") +
+                           ", must be either server=HOST:PORT of a meniscusd, as in "
+                           "MENISCUS_CATALYST=\"server=127.0.0.1:50051 particle-radius=0.025\", or output=FOLDER for "
+                           "files of surfaces");
     Settings settings;
     OptionReader attributes(&options);
     text_options::read_attributes(attributes, settings);

@@ -1,4 +1,4 @@
-// The options of a run: those of the C interface by their names, and which server and which channel.
+// The options of a run: those of the C interface by their names, which server or folder and which channel.
 #pragma once
 
 #include <string>
@@ -12,8 +12,9 @@ namespace meniscus::catalyst {
 
 struct RunOptions {
     std::string server;           ///< HOST:PORT and so on, as meniscus_client_connect() takes it
+    std::string output;           ///< a folder for files of surfaces, in place of the server
     std::string channel;          ///< the one whose particles are taken; empty: the first that has a mesh
-    bool makes_surfaces = false;  ///< the ranks, by option reconstruct-ranks; otherwise the server
+    bool makes_surfaces = false;  ///< the ranks, by option reconstruct-ranks or output; otherwise the server
     text_options::Options connection;
     text_options::Options session;
     bool all_attributes = false;

@@ -1,8 +1,7 @@
 #include "formats/meshes/pvd_writer.hpp"
 
-#include <pugixml.hpp>
-#include <sstream>
 #include <string>
+#include <string_view>
 
 #include "formats/bytes/atomic_file.hpp"
 #include "meniscus/number_text.hpp"
@@ -10,34 +9,39 @@
 namespace meniscus::formats {
 namespace {
 
-std::string shortest(double number) {
-    std::string text;
-    append_shortest(text, number);
-    return text;
+/// As the value of an attribute. Names of files have any bytes.
+std::string quoted_in_xml(std::string_view text) {
+    constexpr std::string_view special = "&<>\"";
+    std::string out = "\"";
+    for (const char c : text) {
+        if (special.find(c) == std::string_view::npos && static_cast<unsigned char>(c) >= ' ')
+            out += c;
+        else
+            out.append("&#").append(std::to_string(c)).append(";");
+    }
+    return out += '"';
 }
 
 }  // namespace
 
 void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries) {
     const std::filesystem::path folder = std::filesystem::absolute(path).lexically_normal().parent_path();
-    pugi::xml_document document;
-    pugi::xml_node file = document.append_child("VTKFile");
-    file.append_attribute("type") = "Collection";
-    file.append_attribute("version") = "0.1";
-    file.append_attribute("byte_order") = "LittleEndian";
-    pugi::xml_node collection = file.append_child("Collection");
+    AtomicFile file(path);
+    file.write(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+        "  <Collection>\n");
+    std::string line;
     for (const PvdEntry& entry : entries) {
-        pugi::xml_node node = collection.append_child("DataSet");
-        node.append_attribute("timestep") = shortest(entry.time).c_str();
-        node.append_attribute("group") = "";
-        node.append_attribute("part") = "0";
         const std::filesystem::path relative =
             std::filesystem::absolute(entry.file).lexically_normal().lexically_relative(folder);
-        node.append_attribute("file") = relative.string().c_str();
+        line = "    <DataSet timestep=\"";
+        append_shortest(line, entry.time);
+        line.append("\" group=\"\" part=\"").append(std::to_string(entry.part)).append("\" file=");
+        line.append(quoted_in_xml(relative.string())).append(" />\n");
+        file.write(line);
     }
-    std::ostringstream text;
-    document.save(text, "  ");
-    write_file(path, text.str());
+    file.write("  </Collection>\n</VTKFile>\n");
+    file.commit();
 }
 
 }  // namespace meniscus::formats

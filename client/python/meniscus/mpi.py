@@ -1,7 +1,8 @@
 """Surfaces of the particles of an MPI job, made by its ranks beside the simulation: needs mpi4py.
 
 Each rank pushes the particles that it owns; they are gathered nowhere. Some ranks reconstruct a part of each frame, and
-publish it to a session of a server, where watchers get one surface: to the bit that of the whole frame.
+publish it to a session of a server, where watchers get one surface: to the bit that of the whole frame. Or they write
+files, in place of the server: ``output="surfaces"``.
 
     >>> from mpi4py import MPI
     >>> import meniscus.mpi
@@ -13,6 +14,7 @@ publish it to a session of a server, where watchers get one surface: to the bit 
 from __future__ import annotations
 
 import itertools
+import os
 from types import TracebackType
 from typing import Any, Mapping, Optional, Sequence, Type, Union
 
@@ -37,6 +39,11 @@ class Parts:
     for a connection; ``name``, ``id`` and the others of Client.session(), for the session, which the first rank that
     reconstructs opens; those of Client.publish() but ``parts``, ``part`` and ``run``; and
 
+    output              in place of ``server`` and its keywords: a folder that the ranks that reconstruct share. It gets
+                        surface-FRAME-part-PART.vtp of each of them, and surface.pvd, which lists the frames that are
+                        there whole, for ParaView: by their times where these increase, else by their numbers. A folder
+                        that has a list is refused.
+
     policy              "latest": a frame that comes while one is made is left out, on all ranks: push() waits for no
                         reconstruction; "every-frame": none is, and push() waits for the frame before
     reconstruct_ranks   "node": one rank of each machine reconstructs; "all"; or their number
@@ -54,14 +61,15 @@ class Parts:
         comm: MPI.Intracomm,
         particle_radius: Real,
         *,
-        server: str,
+        server: Optional[str] = None,
+        output: Optional[Union[str, os.PathLike[str]]] = None,
         attributes: Union[str, Sequence[str]] = "all",
         **options: Any,
     ) -> None:
         texts: dict[str, str] = {}
         wrong: Optional[str] = None
         try:
-            texts = option_texts({"particle_radius": particle_radius, "server": server, **options})
+            texts = option_texts({"particle_radius": particle_radius, "server": server, "output": output, **options})
             if "id" in texts:
                 texts["session"] = texts.pop("id")
             texts["attribute"] = names_text(attributes)
@@ -77,7 +85,7 @@ class Parts:
 
     @property
     def session_id(self) -> str:
-        """For watchers."""
+        """For watchers; empty where files are written."""
         return self._opened().session_id()
 
     @property
@@ -102,7 +110,7 @@ class Parts:
 
         Raises InvalidInput, LimitExceeded, ServerError or Error, on all ranks alike, also for the frame before; the
         next frame may come. A server that is away raises ServerError (unavailable) once for each attempt to reach it
-        again, and frames are left out meanwhile.
+        again, and files that cannot be written Error; frames are left out meanwhile.
         """
 
         def frame() -> arrays.Frame:
@@ -111,8 +119,8 @@ class Parts:
         return self._opened().push(frame, index, time)
 
     def finish(self) -> None:
-        """Publishes what was pushed, and waits until the server has answered; no frame may follow. Raises as
-        push()."""
+        """Publishes what was pushed, and waits until the server has answered or the files are listed; no frame may
+        follow. Raises as push()."""
         self._opened().finish()
 
     def close(self) -> None:

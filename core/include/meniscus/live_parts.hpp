@@ -2,6 +2,7 @@
 // their threads make the parts between the calls. (core/README.md#beside-a-simulation)
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -21,7 +22,8 @@ enum class LivePolicy : std::uint8_t {
 struct LivePart {
     std::uint64_t index = 0;
     double simulation_time = 0.0;
-    const Mesh* mesh;  ///< null where the frame has fewer parts than there are makers
+    const Mesh* mesh;        ///< null where the frame has fewer parts than there are makers
+    std::size_t number = 0;  ///< of the part, below the size of report.own_vertices
     /// Of the part, such that all parts' add up to the whole frame's: what belongs to no part is counted by the first.
     Statistics statistics;
     const PartsReport& report;  ///< the whole frame's

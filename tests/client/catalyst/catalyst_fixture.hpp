@@ -38,7 +38,7 @@ protected:
     }
     CWatcher watch(const char* attributes = nullptr, const char* session_id = nullptr) {
         CWatcher watcher;
-        const std::string own = session_id == nullptr ? results().session : session_id;
+        const std::string own = session_id == nullptr ? results().place : session_id;
         const COptions wishes = options_of({{"attribute-bits", "0"}});
         EXPECT_EQ(meniscus_options_set(wishes.get(), "attribute", attributes), MENISCUS_OK);
         EXPECT_EQ(meniscus_watcher_open(client_.get(), own.c_str(), wishes.get(), watcher.out()), MENISCUS_OK)
@@ -50,7 +50,7 @@ protected:
         CClient client;
         EXPECT_EQ(meniscus_client_connect(address.c_str(), nullptr, client.out()), MENISCUS_OK);
         CWatcher watcher;
-        EXPECT_EQ(meniscus_watcher_open(client.get(), results().session.c_str(), nullptr, watcher.out()), MENISCUS_OK)
+        EXPECT_EQ(meniscus_watcher_open(client.get(), results().place.c_str(), nullptr, watcher.out()), MENISCUS_OK)
             << meniscus_error_message();
         return watcher;
     }

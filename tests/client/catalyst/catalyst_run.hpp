@@ -47,7 +47,7 @@ inline int finalize() {
 }
 
 struct Results {
-    std::string session;
+    std::string place;  ///< the session, or the folder of files
     std::int64_t sent = 0;
     std::int64_t left_out = 0;
 };
@@ -57,7 +57,9 @@ inline Results results() {
     const auto number = [&](const char* path) {
         return *reinterpret_cast<const std::int64_t*>(params.find(path)->data);
     };
-    return {reinterpret_cast<const char*>(params.find("meniscus/session")->data), number("meniscus/frames_sent"),
+    const auto* place = params.find("meniscus/session");
+    if (place == nullptr) place = params.find("meniscus/output");
+    return {reinterpret_cast<const char*>(place->data), number("meniscus/frames_sent"),
             number("meniscus/frames_left_out")};
 }
 

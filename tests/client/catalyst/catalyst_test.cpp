@@ -317,7 +317,9 @@ TEST_F(Catalyst, ReadsOptionsFromScriptsBelowThoseOfTheEnvironment) {
 }
 
 TEST_F(Catalyst, RefusesWrongOptions) {
-    EXPECT_TRUE(refuses("particle-radius=0.025", "option 'server' is missing, must be HOST:PORT of a meniscusd"));
+    EXPECT_TRUE(refuses("particle-radius=0.025",
+                        "options 'server' and 'output' are missing, must be either server=HOST:PORT of a meniscusd"));
+    EXPECT_TRUE(refuses(options("output=x"), "options 'server' and 'output' are both set"));
     EXPECT_TRUE(refuses("server=" + address_, "particle"));
     EXPECT_TRUE(
         refuses(options("cell-sise=1"), "MENISCUS_CATALYST: option 'cell-sise' is not known, did you mean cell-size?"));

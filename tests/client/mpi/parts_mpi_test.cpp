@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -104,6 +105,41 @@ TEST_F(MpiParts, GiveWatchersTheSurfaceOfOneProcess) {
         job.go_on();
         EXPECT_EQ(job.line(), "ok");
     }
+}
+
+/// The value of an attribute of the first element that has it.
+std::size_t number_in(const std::string& file, const std::string& attribute) {
+    std::ifstream stream(file);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const std::size_t at = text.find(attribute + "=\"");
+    return at == std::string::npos ? 0 : std::stoul(text.substr(at + attribute.size() + 2, 20));
+}
+
+TEST_F(MpiParts, WriteTheTrianglesOfOneProcessToFiles) {
+    std::vector<std::string> words = arguments("random", "all");
+    words[1] = "output=" + folder_ + "/surfaces";
+    {
+        Job job(3, words);
+        ASSERT_EQ(job.line(), "session");
+        ASSERT_EQ(job.line(), "ok");
+        for (unsigned i = 0; i <= frames; ++i) {  // and the end
+            job.go_on();
+            ASSERT_EQ(job.line(), "ok");
+        }
+    }
+    Settings settings = default_settings();
+    settings.cell_size = 0.25;
+    for (unsigned i = 0; i < frames; ++i) {
+        std::size_t triangles = 0;
+        for (const char* const part : {"0", "1", "2"})
+            triangles += number_in(folder_ + "/surfaces/surface-00000" + std::to_string(i) + "-part-" + part + ".vtp",
+                                   "NumberOfPolys");
+        EXPECT_EQ(triangles, reconstruct(settings, splash(i, 8).frame()).triangles.size());
+    }
+    std::ifstream list(folder_ + "/surfaces/surface.pvd");
+    std::size_t listed = 0;
+    for (std::string line; std::getline(list, line);) listed += line.find("<DataSet") != std::string::npos ? 1 : 0;
+    EXPECT_EQ(listed, 3 * frames);
 }
 
 TEST_F(MpiParts, SayTogetherThatThereIsNoServer) {

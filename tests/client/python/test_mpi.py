@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -63,6 +64,28 @@ def test_the_ranks_of_a_job_make_the_surface_of_one_process_and_fail_together(cl
         assert frame.mesh.sha256() == whole.sha256(), index
         assert sorted(frame.mesh.attributes["mark"]) == sorted(whole.attributes["mark"])
         assert frame.statistics.particles == len(x)
+
+
+def test_files_take_the_place_of_a_server(tmp_path):
+    mpi = pytest.importorskip("meniscus.mpi")
+    folder = tmp_path / "surfaces"
+    with mpi.Parts(mpi.MPI.COMM_SELF, particle_radius, output=folder, policy="every-frame") as parts:
+        assert parts.session_id == ""
+        for index in range(3):
+            assert parts.push(particles_of(index), time=0.5 * index)
+    listed = re.findall(r'timestep="([^"]*)".*part="0" file="([^"]*)"', (folder / "surface.pvd").read_text())
+    assert listed == [(time, f"surface-00000{i}-part-0.vtp") for i, time in enumerate(("0", "0.5", "1"))]
+    for index, (_, name) in enumerate(listed):
+        whole = meniscus.reconstruct(particles_of(index), particle_radius)
+        written = (folder / name).read_text()
+        assert f'NumberOfPoints="{len(whole.vertices)}"' in written
+        assert f'NumberOfPolys="{len(whole.triangles)}"' in written
+    with pytest.raises(meniscus.InvalidInput, match="surface.pvd is there"):
+        mpi.Parts(mpi.MPI.COMM_SELF, particle_radius, output=str(folder))
+    with pytest.raises(meniscus.InvalidInput, match="'server' and 'output' are both set"):
+        mpi.Parts(mpi.MPI.COMM_SELF, particle_radius, output=folder, server="unix:/nowhere")
+    with pytest.raises(meniscus.InvalidInput, match="'server' is not set"):
+        mpi.Parts(mpi.MPI.COMM_SELF, particle_radius)
 
 
 def test_a_server_that_is_not_there_and_wrong_options_are_told_by_all_ranks():

@@ -343,7 +343,7 @@ MENISCUS_API meniscus_result meniscus_frame_statistics(const meniscus_frame* fra
 /* ---- Many processes that make one surface ----------------------------------------------------------------------- */
 
 /* The processes of a job, its ranks, that reconstruct each frame of their simulation together and publish it to a
- * server. For MPI, meniscus/mpi.h makes it; all of this is since 0.2. */
+ * server, or write it to files. For MPI, meniscus/mpi.h makes it; all of this is since 0.2. */
 typedef struct meniscus_parts meniscus_parts;
 
 /* How the ranks exchange bytes. The functions are called within meniscus_parts_open(), _push() and _free() alone, by
@@ -368,12 +368,15 @@ typedef struct meniscus_exchange {
 } meniscus_exchange;
 
 /* Called by all ranks together with the same options, but for the server, the connection and the backend; opens the
- * session. options: server (HOST:PORT, required), those of meniscus_client_connect(), of
- * meniscus_reconstructor_create() and of meniscus_publisher_open() but nth, parts, part and run; reconstruct-ranks (the
- * ranks that reconstruct and publish: node, the default, is one of each machine; all; or a number of them), overlap
- * (base cells, default 4), policy (of frames that come while one is being reconstructed: latest, the default, leaves
- * them out; every-frame waits). A frame has at most 256 publishers. A rank that fails makes all fail, here and below;
- * the message names it. */
+ * session. options: server (HOST:PORT), those of meniscus_client_connect(), of meniscus_reconstructor_create() and of
+ * meniscus_publisher_open() but nth, parts, part and run; reconstruct-ranks (the ranks that reconstruct and publish:
+ * node, the default, is one of each machine; all; or a number of them), overlap (base cells, default 4), policy (of
+ * frames that come while one is being reconstructed: latest, the default, leaves them out; every-frame waits). A frame
+ * has at most 256 publishers. A rank that fails makes all fail, here and below; the message names it.
+ *
+ * output, in place of server and of what is set for it: a folder that the ranks that reconstruct share. It gets
+ * surface-FRAME-part-PART.vtp of each of them, and surface.pvd, which lists the frames that are there whole: by their
+ * times where these increase, else by their numbers. A folder that has a list is refused. */
 MENISCUS_API meniscus_result meniscus_parts_open(const meniscus_exchange* exchange, const meniscus_options* options,
                                                  meniscus_parts** parts);
 /* Called by all ranks together. particles: those that this rank owns, wherever they are, also none; each particle of
@@ -383,13 +386,14 @@ MENISCUS_API meniscus_result meniscus_parts_open(const meniscus_exchange* exchan
  *
  * MENISCUS_WOULD_WAIT: the frame is left out, by all ranks. An error: it is left out, too, and the next may be pushed.
  * While the server is away frames are left out; that is told once, as MENISCUS_UNAVAILABLE, and once for each attempt
- * to open the session again: 1, 2, 4 and at last 30 seconds lie between these. */
+ * to open the session again: 1, 2, 4 and at last 30 seconds lie between these. So it is where files cannot be written,
+ * which is MENISCUS_UNKNOWN. */
 MENISCUS_API meniscus_result meniscus_parts_push(meniscus_parts* parts, const meniscus_particles* particles,
                                                  uint64_t step, double time);
-/* Called by all ranks together: waits until the last frame is shown, and ends the session if this job has made it. An
- * error says what became of the last frames; `parts` is gone in any case. */
+/* Called by all ranks together: waits until the last frame is shown or listed, and ends the session if this job has
+ * made it. An error says what became of the last frames; `parts` is gone in any case. */
 MENISCUS_API meniscus_result meniscus_parts_free(meniscus_parts* parts);
-/* The session's id, for watchers. Valid as long as `parts`; NULL for NULL. */
+/* The session's id, for watchers; empty where files are written. Valid as long as `parts`; NULL for NULL. */
 MENISCUS_API const char* meniscus_parts_session_id(const meniscus_parts* parts);
 /* Frames left out so far, but for those that were refused. */
 MENISCUS_API meniscus_result meniscus_parts_dropped(const meniscus_parts* parts, uint64_t* frames);

@@ -1,0 +1,39 @@
+// Publishes a rank's parts as files of a folder that all makers share. The first maker lists them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "ranks/parts_publisher.hpp"
+#include "ranks/surface_list.hpp"
+
+namespace meniscus::ranks {
+
+class FilesPublisher final : public PartsPublisher {
+public:
+    explicit FilesPublisher(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    /// The first maker makes the folder. Throws InvalidInput as SurfaceList, and where the folder is not seen here.
+    std::string open(const MakerPlace& place) override;
+    void finish() override;
+
+private:
+    void show(const LivePart& part) override;
+    void leave() noexcept override;
+
+    /// What this maker has written of a frame. Whether the others have written theirs is known with the next one.
+    struct Shown {
+        SurfaceList::Frame frame;
+        std::filesystem::path file;  ///< empty: it has no part of the frame
+    };
+    /// It is there whole.
+    void list_shown();
+
+    std::filesystem::path folder_;
+    std::optional<SurfaceList> list_;  ///< the first maker's
+    std::optional<Shown> shown_;
+};
+
+}  // namespace meniscus::ranks
