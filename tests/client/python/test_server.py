@@ -223,10 +223,13 @@ def test_try_push_takes_nothing_where_push_would_wait(session, positions):
 
 
 def test_a_second_stream_is_refused(session):
-    with session.stream(), refused("failed_precondition", "FAILED_PRECONDITION"):
-        second = session.stream()
-        second.push([[0.0, 0.0, 0.0]])
-        second.next(60)
+    with session.stream() as first:
+        first.push([[0.0, 0.0, 0.0]])
+        first.next(60)  # it is there
+        with refused("failed_precondition", "FAILED_PRECONDITION"):
+            second = session.stream()
+            second.push([[0.0, 0.0, 0.0]])
+            second.next(60)
 
 
 def test_a_push_after_the_greatest_index_is_refused(session, positions):
