@@ -12,11 +12,18 @@
 
 namespace meniscus {
 
-/// Particles of a process in a brick.
+/// The work for a particle over that for a triangle. (core/README.md#parts-in-turn-in-one-process-or-several)
+inline constexpr std::uint64_t particle_over_triangle = 5;
+
+/// What a process has in a brick.
 struct BrickLoad {
     BrickCoordinate brick{};
     std::uint32_t rank = 0;
-    std::uint64_t particles = 0;
+    std::uint32_t particles = 0;
+    std::uint32_t triangles = 0;  ///< those that it has made there in the frame before
+
+    /// Whole: its sums do not depend on their order.
+    std::uint64_t work() const { return particle_over_triangle * particles + triangles; }
     bool operator==(const BrickLoad&) const = default;
 };
 /// The bricks that hold particles of a valid frame of a process, by (z, y, x). each_stands_for: of each of such groups
@@ -36,8 +43,8 @@ struct BrickDeal {
 };
 
 /// Deals all bricks to parts: boxes that fill space, made by cutting boxes in two between bricks. Each cut is where the
-/// side with more to do for each of its parts has least: its particles, and half of those in the layer of bricks beyond
-/// the cut, of which it needs some. The same for the same loads, in whatever order. parts: 1 to max_parts, else throws
+/// side with more work for each of its parts has least: its own, and half of that in the layer of bricks beyond the
+/// cut, of which it needs some. The same for the same loads, in whatever order. parts: 1 to max_parts, else throws
 /// InvalidInput; there are fewer boxes where a brick would have several.
 BrickDeal deal_bricks(std::vector<BrickLoad> loads, std::size_t parts);
 

@@ -17,10 +17,10 @@ namespace {
 
 using Loads = std::span<BrickLoad>;
 
-std::uint64_t particles_of(std::span<const BrickLoad> loads) {
-    std::uint64_t particles = 0;
-    for (const BrickLoad& load : loads) particles += load.particles;
-    return particles;
+std::uint64_t work_of(std::span<const BrickLoad> loads) {
+    std::uint64_t work = 0;
+    for (const BrickLoad& load : loads) work += load.work();
+    return work;
 }
 
 /// A plane between two layers of bricks.
@@ -33,10 +33,10 @@ struct Cut {
 /// The bricks that lie at one place along an axis.
 struct Layer {
     std::int32_t at = 0;
-    double particles = 0.0;
+    double work = 0.0;
 };
 
-/// Those with particles, ascending.
+/// Those with work, ascending.
 std::vector<Layer> layers_of(std::span<const BrickLoad> loads, std::size_t axis) {
     std::vector<Layer> layers;
     if (loads.empty()) return layers;
@@ -49,34 +49,34 @@ std::vector<Layer> layers_of(std::span<const BrickLoad> loads, std::size_t axis)
         layers.resize(places);
         for (const BrickLoad& load : loads) {
             Layer& layer = layers[place_of(load)];
-            layer = {load.brick[axis], layer.particles + static_cast<double>(load.particles)};
+            layer = {load.brick[axis], layer.work + static_cast<double>(load.work())};
         }
-        std::erase_if(layers, [](const Layer& layer) { return layer.particles == 0.0; });
+        std::erase_if(layers, [](const Layer& layer) { return layer.work == 0.0; });
         return layers;
     }
-    for (const BrickLoad& load : loads) layers.push_back({load.brick[axis], static_cast<double>(load.particles)});
+    for (const BrickLoad& load : loads) layers.push_back({load.brick[axis], static_cast<double>(load.work())});
     std::sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.at < b.at; });
     std::size_t last = 0;
     for (std::size_t i = 1; i < layers.size(); ++i)
         if (layers[i].at == layers[last].at)
-            layers[last].particles += layers[i].particles;
+            layers[last].work += layers[i].work;
         else
             layers[++last] = layers[i];
     layers.resize(last + 1);
     return layers;
 }
 
-/// The best of the cuts along an axis through bricks with particles. below, above: numbers of parts on either side.
+/// The best of the cuts along an axis through bricks with work. below, above: numbers of parts on either side.
 Cut best_cut(std::span<const BrickLoad> loads, const BrickBox& box, std::size_t axis, double below, double above) {
     const std::vector<Layer> layers = layers_of(loads, axis);
-    const auto all = static_cast<double>(particles_of(loads));
+    const auto all = static_cast<double>(work_of(loads));
     Cut best{axis};
     double under = 0.0, layer_before = 0.0;
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const auto [at, layer] = layers[i];
         // Below this layer; and above it, where the next one is empty.
-        const auto consider = [&](std::int32_t place, double particles, double last, double next) {
-            const double cost = std::max((particles + next / 2.0) / below, (all - particles + last / 2.0) / above);
+        const auto consider = [&](std::int32_t place, double work, double last, double next) {
+            const double cost = std::max((work + next / 2.0) / below, (all - work + last / 2.0) / above);
             if (place > box.low[axis] && place < box.high[axis] && cost < best.cost) best = {axis, place, cost};
         };
         consider(at, under, layer_before, layer);
@@ -149,7 +149,7 @@ std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& s
     loads.reserve(all.size());
     for (const BrickCounts::Count& count : all) {
         const Int3 at = brick_coordinate(count.key);
-        loads.push_back({{at.x, at.y, at.z}, rank, count.particles});
+        loads.push_back({{at.x, at.y, at.z}, rank, static_cast<std::uint32_t>(count.particles), 0});
     }
     return loads;
 }

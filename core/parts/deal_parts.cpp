@@ -27,6 +27,7 @@ std::vector<Share> shares_of(const BrickDeal& deal, std::span<const std::size_t>
     std::vector<std::size_t> found;
     for (std::size_t part = 0; part < deal.boxes.size(); ++part) {
         for (const BrickLoad& load : deal.loads_of(part)) {
+            if (load.particles == 0) continue;
             const auto after = std::upper_bound(makers.begin(), makers.end(), std::size_t{load.rank});
             const auto maker = static_cast<std::size_t>(std::max(after - makers.begin(), std::ptrdiff_t{1}) - 1);
             if (particles[maker] == 0) found.push_back(maker);

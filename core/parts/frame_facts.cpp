@@ -61,6 +61,7 @@ FrameFacts facts_together(const std::vector<PartExchange::Bytes>& of_ranks) {
     FrameFacts all;
     for (const PartExchange::Bytes& bytes : of_ranks) {
         FrameFacts facts = unpacked_facts(bytes);
+        all.loads.insert(all.loads.end(), facts.loads.begin(), facts.loads.end());
         if (facts.particles() == 0) {
             // Of any form; where nobody has particles, the arrays that are named give a mesh its attributes.
             if (all.particles() == 0 && all.form.arrays.empty()) all.form = std::move(facts.form);
@@ -72,7 +73,6 @@ FrameFacts facts_together(const std::vector<PartExchange::Bytes>& of_ranks) {
                 "same");
         all.form = std::move(facts.form);
         for (std::size_t level = 0; level < all.by_level.size(); ++level) all.by_level[level] += facts.by_level[level];
-        all.loads.insert(all.loads.end(), facts.loads.begin(), facts.loads.end());
         widen(all.ranges, facts.ranges);
     }
     return all;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -86,6 +87,7 @@ public:
             overlaps_.assign(own_.size(), options_.overlap);
             told_ = {};
             borders_.clear();
+            surfaces_.clear();
             report_ = {};
             error_ = nullptr;
             wanted_.resize(own_.size());
@@ -157,6 +159,8 @@ private:
         const std::size_t group = pace_ == Pace::at_once ? 1 : mine.count() / particles_for_deal;
         facts.loads = brick_loads(mine, settings_, static_cast<std::uint32_t>(agreement_.rank()),
                                   std::max<std::size_t>(group, 1));
+        for (const auto& [part, surface] : surfaces_)
+            facts.loads.insert(facts.loads.end(), surface.begin(), surface.end());
         facts.ranges = array_ranges(mine, settings_);
         return facts;
     }
@@ -198,12 +202,24 @@ private:
         const PartOutcome outcome = reconstructor_->reconstruct_part(particles, its, mesh_);
         const Statistics& statistics = reconstructor_->statistics();
         told_.take(number, MadePart(number, particles.count(), statistics, outcome), mesh_);
+        // Of a process that makes many parts the largest decides how much memory it takes: those have equal particles.
+        if (pace_ == Pace::beside_a_simulation) surfaces_.insert_or_assign(number, surface_loads());
         borders_.insert_or_assign(number, PartBorder(number, outcome.seams, mesh_, own_));
         report_.whole.peak_bytes = std::max(report_.whole.peak_bytes, statistics.peak_bytes);
         report_.whole.device_peak_bytes = std::max(report_.whole.device_peak_bytes, statistics.device_peak_bytes);
         report_.whole.backend = statistics.backend;
         report_.whole.threads = statistics.threads;
         sink({number, its, mesh_, statistics});
+    }
+
+    /// Of the part that was made last.
+    std::vector<BrickLoad> surface_loads() const {
+        std::vector<BrickLoad> loads;
+        loads.reserve(mesh_.bricks.size());
+        for (const MeshBrick& brick : mesh_.bricks)
+            loads.push_back(
+                {brick.coordinate, static_cast<std::uint32_t>(agreement_.rank()), 0, brick.triangle_count()});
+        return loads;
     }
 
     void rethrow_error() {
@@ -284,6 +300,7 @@ private:
     std::optional<Warning> wrong_radius_;
     PartsReport report_;                                            ///< without what is summed up of the parts
     PartsTold told_;                                                ///< by this process
+    std::map<std::size_t, std::vector<BrickLoad>> surfaces_;        ///< of these, for the next frame's deal
     Borders borders_;                                               ///< of its parts
     std::vector<PartExchange::Bytes> to_touching_, from_touching_;  ///< of these, to the parts beyond
     // Of the round:

@@ -1,4 +1,4 @@
-// Bricks are dealt to parts: each brick to one, and as many particles to each as cuts between bricks allow.
+// Bricks are dealt to parts: each brick to one, and as much work to each as cuts between bricks allow.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,11 @@ std::vector<BrickLoad> random_loads(unsigned seed, int count) {
     std::uniform_int_distribution<std::int32_t> place(-6, 6);
     std::vector<BrickLoad> loads;
     loads.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) loads.push_back({{place(random), place(random), place(random)}, 0, random() % 100});
+    for (int i = 0; i < count; ++i)
+        loads.push_back({{place(random), place(random), place(random)},
+                         0,
+                         static_cast<std::uint32_t>(random() % 100),
+                         static_cast<std::uint32_t>(random() % 1000)});
     return loads;
 }
 
@@ -67,6 +71,15 @@ TEST(DealBricks, GivesPartsOfACubeTheSame) {
     for (std::int32_t i = 0; i < 8 * 8 * 8; ++i) loads.push_back({{i % 8, i / 8 % 8, i / 64}, 0, 10});
     for (const std::size_t parts : {2U, 4U, 8U, 64U})
         for (const BrickBox& box : deal_bricks(loads, parts).boxes) EXPECT_EQ(load_of(box, loads), 5120 / parts);
+}
+
+TEST(DealBricks, GivesFewerParticlesToAPartWithManyTriangles) {
+    // A row of water, of which the last bricks are drops: little water with much surface.
+    std::vector<BrickLoad> loads;
+    loads.reserve(12);
+    for (std::int32_t x = 0; x < 12; ++x) loads.push_back({{x, 0, 0}, 0, x < 8 ? 1000U : 10U, x < 8 ? 0U : 10000U});
+    const std::vector<BrickBox> boxes = deal_bricks(loads, 2).boxes;
+    EXPECT_EQ(boxes[0].high[0], 8);
 }
 
 TEST(DealBricks, CutsWhereThereIsLittle) {

@@ -1,6 +1,7 @@
 // Frames in parts beside simulations, whose ranks are threads here: each is published whole, or by none.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <condition_variable>
@@ -121,6 +122,33 @@ TEST(LiveParts, PublishTheWholesMeshOfEachFrameWhoeverMakesIt) {
             expect_whole(settings_of_parts(), frame_of(index / 10), frame);
         }
     }
+}
+
+TEST(LiveParts, AreDealtByTheSurfaceOfTheFrameBefore) {
+    // A block of water, and drops beside it: much surface of few particles.
+    test::Particles particles;
+    for (int i = 0; i < 16 * 16 * 16; ++i)
+        particles.add(static_cast<float>(i % 16) * 0.05F, static_cast<float>(i / 16 % 16) * 0.05F,
+                      static_cast<float>(i / 256) * 0.05F);
+    for (int i = 0; i < 16 * 4 * 4; ++i)
+        particles.add(1.2F + static_cast<float>(i % 16) * 0.2F, static_cast<float>(i / 16 % 4) * 0.2F,
+                      static_cast<float>(i / 64) * 0.2F);
+    Shown shown;
+    test::on_ranks(2, [&](test::ThreadExchange& exchange) {
+        Publisher publisher(shown);
+        LiveParts parts(test::default_settings(), {Backend::cpu, 1, 0}, {.parts = 2}, LivePolicy::every_frame, exchange,
+                        publisher);
+        for (std::uint64_t i = 0; i < 2; ++i)
+            EXPECT_TRUE(parts.push(share_of(particles, i, exchange.rank(), 2).frame(), i, 0.0));
+        parts.finish();
+    });
+    const auto most = [&shown](std::uint64_t index) {
+        std::size_t triangles = 0;
+        for (const Mesh& mesh : shown.frames().at(index).meshes) triangles = std::max(triangles, mesh.triangles.size());
+        return triangles;
+    };
+    EXPECT_LT(static_cast<double>(most(1)), 0.9 * static_cast<double>(most(0)));
+    expect_whole(test::default_settings(), particles, shown.frames().at(1));
 }
 
 TEST(LiveParts, PublishNoPartBeforeSeamsAreEqual) {
