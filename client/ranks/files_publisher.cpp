@@ -10,13 +10,12 @@
 namespace meniscus::ranks {
 
 std::string FilesPublisher::open(const MakerPlace& place) {
-    std::error_code ignored;
     if (place.number == 0)
-        list_.emplace(folder_);
-    else if (!std::filesystem::is_directory(folder_, ignored))
+        list_.emplace(folder_, place.run);
+    else if (!SurfaceList::is_in(folder_, place.run))
         throw InvalidInput("option 'output' is '" + folder_.string() +
-                           "', which the first rank that reconstructs has made, and which is not there for this one: "
-                           "name a folder that the machines share");
+                           "' here, where the list is not that the first rank that reconstructs has made in its folder "
+                           "of this name: name a folder that the machines share");
     return {};
 }
 
@@ -25,8 +24,11 @@ void FilesPublisher::show(const LivePart& part) {
     if (list_) list_->write_in_time();
     Shown shown{{part.index, part.simulation_time, part.report.own_vertices.size()}, {}};
     if (part.mesh != nullptr) {
-        shown.file = surface_file(folder_, part.index, part.number, shown.frame.parts);
-        formats::write_mesh_vtp(shown.file, formats::to_triangles(*part.mesh));
+        shown.file = folder_ / surface_name(part.index, part.number, shown.frame.parts);
+        formats::TriangleMesh mesh = formats::to_triangles(*part.mesh);
+        // A border's vertices are the same in all parts.
+        mesh.wide = formats::needs_double(part.report.farthest);
+        formats::write_mesh_vtp(shown.file, mesh);
     }
     shown_ = std::move(shown);
 }

@@ -13,9 +13,10 @@ namespace meniscus::ranks {
 
 class FilesPublisher final : public PartsPublisher {
 public:
-    explicit FilesPublisher(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    /// folder: where the program goes to another one, this stays.
+    explicit FilesPublisher(const std::filesystem::path& folder) : folder_(std::filesystem::absolute(folder)) {}
 
-    /// The first maker makes the folder. Throws InvalidInput as SurfaceList, and where the folder is not seen here.
+    /// The first maker makes the folder. Throws InvalidInput as SurfaceList, and where another maker does not see it.
     std::string open(const MakerPlace& place) override;
     void finish() override;
 

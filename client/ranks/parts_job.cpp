@@ -1,6 +1,7 @@
 #include "ranks/parts_job.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <random>
 
 #include "meniscus/client/errors.hpp"
@@ -73,8 +74,29 @@ bool PartsJob::push(const FrameGiver& mine, std::uint64_t index, double simulati
     return in_words_of_server([&] { return live_->push(mine, index, simulation_time); });
 }
 
+void PartsJob::finish_others() noexcept {
+    try {
+        if (is_maker_) publisher_->finish();
+    } catch (...) {
+        // One failure has been told.
+    }
+}
+
 void PartsJob::finish() {
-    in_words_of_server([&] { live_->finish(); });
+    std::exception_ptr failed;
+    try {
+        in_words_of_server([&] { live_->finish(); });
+    } catch (const PublishingFailed&) {
+        failed = std::current_exception();
+    } catch (const ProcessFailed&) {
+        throw;  // it is not known what the others have published
+    } catch (...) {
+        failed = std::current_exception();
+    }
+    if (failed) {
+        finish_others();
+        std::rethrow_exception(failed);
+    }
     is_finished_ = true;
     agreed(exchange_, [&] {
         if (is_maker_) publisher_->finish();

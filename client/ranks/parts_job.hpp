@@ -37,6 +37,8 @@ public:
 private:
     /// The first maker opens the session, and the others join it.
     void open_session(const std::vector<std::size_t>& makers, std::uint64_t run);
+    /// The frames but that which has failed.
+    void finish_others() noexcept;
     template <class Call>
     auto in_words_of_server(const Call& call);
 

@@ -5,23 +5,27 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace meniscus::ranks {
 
-/// FOLDER/surface-FRAME-part-PART.vtp
-std::filesystem::path surface_file(const std::filesystem::path& folder, std::uint64_t frame, std::size_t part,
-                                   std::size_t parts);
+/// The name of a part's file in the folder: surface-FRAME-part-PART.vtp
+std::string surface_name(std::uint64_t frame, std::size_t part, std::size_t parts);
 
 /// Names only frames whose files are all there.
 class SurfaceList {
 public:
-    /// Makes the folder if need be. Throws InvalidInput where it cannot, and where the folder has a list already.
-    explicit SurfaceList(std::filesystem::path folder);
-    /// Writes what write_in_time() has put off, if it can.
+    /// Makes the folder if need be, and in it a list without frames, so that no other job writes there. run: names the
+    /// job. Throws InvalidInput where it cannot, and where there is a list already.
+    SurfaceList(std::filesystem::path folder, std::uint64_t run);
+    /// Writes what write_in_time() has put off, if it can. A list without frames goes.
     ~SurfaceList();
     SurfaceList(const SurfaceList&) = delete;
     SurfaceList& operator=(const SurfaceList&) = delete;
+
+    /// Whether this run's list, without frames yet, is in the folder.
+    static bool is_in(const std::filesystem::path& folder, std::uint64_t run);
 
     struct Frame {
         std::uint64_t index = 0;
@@ -29,8 +33,8 @@ public:
         std::size_t parts = 1;
     };
     void add(const Frame& frame);
-    /// Now, or later: a list of many frames is written again for each of them, and takes a twentieth of the time at
-    /// most. Throws as write_pvd(), here and below.
+    /// Now, or later: a list of many frames is written again for each of them, and takes about a twentieth of the time
+    /// at most. Throws ProcessFailed where it cannot, here and below.
     void write_in_time();
     void write();
 

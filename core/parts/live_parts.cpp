@@ -2,6 +2,7 @@
 #include "meniscus/live_parts.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,10 +37,12 @@ public:
     }
 
     void finish() {
-        while (!come_together({.ends = true}, [] {})) worker_.wait();
+        std::exception_ptr failed;
+        come_to_rest(failed);
         settle(true);
         work(Making::nothing);
-        while (!come_together({.ends = true}, [] {})) worker_.wait();
+        come_to_rest(failed);
+        if (failed) std::rethrow_exception(failed);
     }
 
     std::uint64_t next_index() const { return last_index_ ? *last_index_ + 1 : 0; }
@@ -80,6 +83,19 @@ private:
             std::find_if(all.begin(), all.end(), [](const Presence& its) { return !its.failure.empty(); });
         if (failed != all.end()) fail("rank " + std::to_string(failed - all.begin()) + ": " + failed->failure);
         return !is_one(&Presence::is_away);
+    }
+
+    /// Waits until no process is at work. failed: gets the first frame's error that was not published: the next one
+    /// still may be.
+    void come_to_rest(std::exception_ptr& failed) {
+        for (bool is_at_rest = false; !is_at_rest;) {
+            worker_.wait();
+            try {
+                is_at_rest = come_together({.ends = true}, [] {});
+            } catch (const PublishingFailed&) {
+                if (!failed) failed = std::current_exception();
+            }
+        }
     }
 
     [[noreturn]] void fail(const std::string& what) {

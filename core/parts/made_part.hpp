@@ -25,6 +25,7 @@ struct MadePart {
     std::uint64_t vertices_without_particles = 0;
     std::uint64_t field_evaluations = 0;
     std::array<double, stage_count> stage_seconds{};
+    std::uint64_t farthest = 0;  ///< PartsReport::farthest, of its vertices
     float greatest_sample = 0.0F;
 
     MadePart() = default;
@@ -55,6 +56,7 @@ struct MadePart {
         vertices_without_particles += o.vertices_without_particles;
         field_evaluations += o.field_evaluations;
         add_all(stage_seconds, o.stage_seconds);
+        farthest = std::max(farthest, o.farthest);
         greatest_sample = std::max(greatest_sample, o.greatest_sample);
     }
 };

@@ -137,6 +137,7 @@ public:
         report.particles_received = sum.particles;
         report.own_vertices = all.own_vertices();
         report.ranges = all.whole_ranges();
+        report.farthest = sum.farthest;
         Statistics& whole = report.whole;
         whole.vertices = sum.own_vertices;
         whole.triangles_by_level = sum.triangles_by_level;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <span>
 
 #include "parts/message.hpp"
@@ -14,12 +15,20 @@ void add_unequal(MessageReader& message, UnequalSeams& unequal) {
     message.append_to(unequal.parts);
 }
 
+std::uint64_t farthest_coordinate(const Mesh& mesh) {
+    std::int64_t farthest = 0;
+    for (const LatticePosition& vertex : mesh.vertices)
+        for (const std::int32_t coordinate : vertex) farthest = std::max(farthest, std::abs(std::int64_t{coordinate}));
+    return static_cast<std::uint64_t>(farthest);
+}
+
 }  // namespace
 
 void PartsTold::take(std::uint64_t part, const MadePart& figures, const Mesh& mesh) {
     std::erase_if(made, [part](const MadePart& other) { return other.number == part; });
     std::erase_if(ranges, [part](const PartRange& range) { return range.part == part; });
     made.push_back(figures);
+    made.back().farthest = farthest_coordinate(mesh);
     std::uint64_t attribute = 0;
     for (const AttributeRange& range : attribute_ranges(mesh)) ranges.push_back({part, attribute++, range});
 }

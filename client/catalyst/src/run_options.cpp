@@ -85,11 +85,11 @@ RunOptions read_run_options(const Node& params, const char* environment, Notices
         options.insert_or_assign(name, std::move(value));
     }
     RunOptions run;
-    run.makes_surfaces = options.contains("reconstruct-ranks") || options.contains("output");
+    run.output = taken(options, "output");
+    run.makes_surfaces = options.contains("reconstruct-ranks") || !run.output.empty();
     options.try_emplace("policy", "latest");
     if (!run.makes_surfaces) options.try_emplace("meshes", "false");
     run.server = taken(options, "server");
-    run.output = taken(options, "output");
     run.channel = taken(options, "channel");
     if (run.server.empty() == run.output.empty())
         throw InvalidInput(std::string("options 'server' and 'output' are ") +

@@ -1,20 +1,18 @@
 #include "formats/meshes/pvd_writer.hpp"
 
 #include <string>
-#include <string_view>
 
-#include "formats/bytes/atomic_file.hpp"
 #include "meniscus/number_text.hpp"
 
 namespace meniscus::formats {
 namespace {
 
-/// As the value of an attribute. Names of files have any bytes.
+/// The value of an attribute.
 std::string quoted_in_xml(std::string_view text) {
-    constexpr std::string_view special = "&<>\"";
+    constexpr std::string_view special = "&<>\"\t\n\r";
     std::string out = "\"";
     for (const char c : text) {
-        if (special.find(c) == std::string_view::npos && static_cast<unsigned char>(c) >= ' ')
+        if (special.find(c) == std::string_view::npos)
             out += c;
         else
             out.append("&#").append(std::to_string(c)).append(";");
@@ -24,24 +22,36 @@ std::string quoted_in_xml(std::string_view text) {
 
 }  // namespace
 
-void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries) {
-    const std::filesystem::path folder = std::filesystem::absolute(path).lexically_normal().parent_path();
-    AtomicFile file(path);
-    file.write(
+PvdWriter::PvdWriter(const std::filesystem::path& path) : file_(path) {
+    file_.write(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
         "  <Collection>\n");
-    std::string line;
+}
+
+void PvdWriter::add(std::string_view time, std::size_t part, std::string_view file) {
+    file_.write(std::string("    <DataSet timestep=\"")
+                    .append(time)
+                    .append("\" group=\"\" part=\"")
+                    .append(std::to_string(part))
+                    .append("\" file=")
+                    .append(quoted_in_xml(file))
+                    .append(" />\n"));
+}
+
+void PvdWriter::commit() {
+    file_.write("  </Collection>\n</VTKFile>\n");
+    file_.commit();
+}
+
+void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries) {
+    const std::filesystem::path folder = std::filesystem::absolute(path).lexically_normal().parent_path();
+    PvdWriter list(path);
     for (const PvdEntry& entry : entries) {
-        const std::filesystem::path relative =
-            std::filesystem::absolute(entry.file).lexically_normal().lexically_relative(folder);
-        line = "    <DataSet timestep=\"";
-        append_shortest(line, entry.time);
-        line.append("\" group=\"\" part=\"").append(std::to_string(entry.part)).append("\" file=");
-        line.append(quoted_in_xml(relative.string())).append(" />\n");
-        file.write(line);
+        std::string time;
+        append_shortest(time, entry.time);
+        list.add(time, 0, std::filesystem::absolute(entry.file).lexically_normal().lexically_relative(folder).string());
     }
-    file.write("  </Collection>\n</VTKFile>\n");
-    file.commit();
+    list.commit();
 }
 
 }  // namespace meniscus::formats

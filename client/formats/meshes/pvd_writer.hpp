@@ -4,17 +4,31 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string_view>
+
+#include "formats/bytes/atomic_file.hpp"
 
 namespace meniscus::formats {
+
+/// Writes it, atomically: what it was given, once commit() has been called. All throw as AtomicFile does.
+class PvdWriter {
+public:
+    explicit PvdWriter(const std::filesystem::path& path);
+    /// time: a number as text; or the frame's number. part: of those of the same time. file: relative to the list's
+    /// folder.
+    void add(std::string_view time, std::size_t part, std::string_view file);
+    void commit();
+
+private:
+    AtomicFile file_;
+};
 
 struct PvdEntry {
     double time = 0.0;  ///< or the frame's number
     std::filesystem::path file;
-    std::size_t part = 0;  ///< of those of the same time
 };
 
-/// Writes it, atomically. Files are named relative to its folder. Throws InvalidInput if the path cannot be written,
-/// and std::runtime_error if writing fails.
+/// Files are named relative to the list's folder.
 void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries);
 
 }  // namespace meniscus::formats

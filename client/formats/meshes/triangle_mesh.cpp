@@ -1,13 +1,15 @@
 #include "formats/meshes/triangle_mesh.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace meniscus::formats {
 
 bool needs_double(const Mesh& mesh) {
-    constexpr std::int32_t limit = 1 << 23;
     return std::any_of(mesh.vertices.begin(), mesh.vertices.end(), [](const LatticePosition& p) {
-        return std::any_of(p.begin(), p.end(), [](std::int32_t x) { return x <= -limit || x >= limit; });
+        return std::any_of(p.begin(), p.end(), [](std::int32_t x) {
+            return needs_double(static_cast<std::uint64_t>(std::abs(std::int64_t{x})));
+        });
     });
 }
 

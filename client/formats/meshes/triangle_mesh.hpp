@@ -14,6 +14,10 @@ namespace meniscus::formats {
 /// That begins at 2^23 lattice units: float32 has 24 significant bits, and just above a power of two its steps are
 /// 2^-23 of the value.
 bool needs_double(const Mesh& mesh);
+/// farthest: the greatest magnitude of a coordinate of its vertices, lattice units.
+constexpr bool needs_double(std::uint64_t farthest) {
+    return farthest >= std::uint64_t{1} << 23U;
+}
 
 /// A convex quadrilateral by its corners' indices, counter-clockwise seen from outside.
 using Quad = std::array<std::uint32_t, 4>;

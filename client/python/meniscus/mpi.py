@@ -69,6 +69,8 @@ class Parts:
         texts: dict[str, str] = {}
         wrong: Optional[str] = None
         try:
+            if not (output is None or isinstance(output, (str, os.PathLike))):
+                raise InvalidInput(f"output is {output!r}, must be a path")
             texts = option_texts({"particle_radius": particle_radius, "server": server, "output": output, **options})
             if "id" in texts:
                 texts["session"] = texts.pop("id")

@@ -54,6 +54,8 @@ def _text(name: str, value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, (str, os.PathLike)):
         return _sendable(name, os.fsdecode(value))
+    if isinstance(value, (bytes, bytearray)):  # which would do as numbers; not shown, for it may be a token
+        raise InvalidInput(f"{name} is of type {type(value).__name__}, must be a text, a number, or numbers")
     try:
         if getattr(value, "ndim", None) == 0:  # numpy's numbers, and arrays of one
             value = value.item()

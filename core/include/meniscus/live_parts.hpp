@@ -72,7 +72,8 @@ public:
     bool push(const ParticleFrame& mine, std::uint64_t index, double simulation_time) {
         return push([&mine] { return mine; }, index, simulation_time);
     }
-    /// Waits until all that was pushed has been published. Throws likewise.
+    /// Waits until all that was pushed has been published. Throws likewise; the last frame is published also where that
+    /// before it has failed.
     void finish();
     /// The least that the next frame may have, the same in all processes.
     std::uint64_t next_index() const;

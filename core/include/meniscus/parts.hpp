@@ -86,6 +86,7 @@ struct PartsReport {
     /// Of each part, by number, the vertices that no part before it has: they add up to the whole's.
     std::vector<std::uint64_t> own_vertices;
     std::vector<AttributeRange> ranges;  ///< of each attribute over all vertices; none without vertices
+    std::uint64_t farthest = 0;          ///< greatest magnitude of a vertex's coordinate, lattice units
 };
 
 /// Reconstructs frames in parts; one in each process of an exchange, each with the same settings and options. A process

@@ -82,6 +82,9 @@ def test_files_take_the_place_of_a_server(tmp_path):
         assert f'NumberOfPolys="{len(whole.triangles)}"' in written
     with pytest.raises(meniscus.InvalidInput, match="surface.pvd is there"):
         mpi.Parts(mpi.MPI.COMM_SELF, particle_radius, output=str(folder))
+    for wrong in b"folder", 5:
+        with pytest.raises(meniscus.InvalidInput, match="output is .*, must be a path"):
+            mpi.Parts(mpi.MPI.COMM_SELF, particle_radius, output=wrong)
     with pytest.raises(meniscus.InvalidInput, match="'server' and 'output' are both set"):
         mpi.Parts(mpi.MPI.COMM_SELF, particle_radius, output=folder, server="unix:/nowhere")
     with pytest.raises(meniscus.InvalidInput, match="'server' is not set"):

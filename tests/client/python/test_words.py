@@ -25,6 +25,12 @@ def test_a_number_of_threads_has_one_range(given, words):
         meniscus.Reconstructor(0.05, threads=given)
 
 
+def test_bytes_are_no_numbers_and_are_not_shown():
+    with pytest.raises(meniscus.InvalidInput, match="token is of type bytes, must be a text") as raised:
+        meniscus.Client("127.0.0.1:1", token=b"secret")
+    assert "secret" not in str(raised.value)
+
+
 def test_a_file_that_is_too_large_names_the_keyword(positions, tmp_path):
     positions.tofile(tmp_path / "p.xyz")
     with pytest.raises(meniscus.LimitExceeded, match="max_bytes"):

@@ -13,6 +13,7 @@
 #include "meniscus/client/errors.hpp"
 #include "meniscus/meniscus.hpp"
 #include "ranks/parts_job.hpp"
+#include "ranks/surface_list.hpp"
 #include "sample_files.hpp"
 #include "support/particles.hpp"
 #include "support/refusal.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 using formats::TriangleMesh;
 using text_options::Options;
-using Vertex = std::array<float, 7>;  ///< its place, its normal and its height
+using Vertex = std::array<double, 7>;  ///< its place, its normal and its height
 using Corners = std::array<Vertex, 3>;
 
 /// The triangles, each with its least corner first, in order.
@@ -31,15 +32,11 @@ std::vector<Corners> triangles_of(const TriangleMesh& mesh, std::vector<Corners>
     if (mesh.triangles.empty()) return others;  // a part may have none
     const auto* const heights = reinterpret_cast<const float*>(mesh.attributes.at(0).data.data());
     const auto vertex = [&](std::uint32_t i) {
-        const auto& at = mesh.positions[i];
+        std::array<double, 3> at = mesh.positions[i];
+        if (!mesh.wide)
+            for (double& x : at) x = static_cast<float>(x);
         const Normal& n = mesh.normals[i];
-        return Vertex{static_cast<float>(at[0]),
-                      static_cast<float>(at[1]),
-                      static_cast<float>(at[2]),
-                      n[0],
-                      n[1],
-                      n[2],
-                      heights[i]};
+        return Vertex{at[0], at[1], at[2], n[0], n[1], n[2], heights[i]};
     };
     for (const Triangle& triangle : mesh.triangles) {
         Corners corners{vertex(triangle[0]), vertex(triangle[1]), vertex(triangle[2])};
@@ -81,7 +78,11 @@ protected:
         if (!more.contains("server")) more.try_emplace("output", folder_.string());
         return more;
     }
-    static Particles frame_of(std::uint64_t index) { return splash(static_cast<unsigned>(index), 8); }
+    Particles frame_of(std::uint64_t index) const {
+        Particles particles = splash(static_cast<unsigned>(index), 8);
+        for (std::size_t i = 0; i < particles.count(); ++i) particles.positions[3 * i] += east_;
+        return particles;
+    }
     static ParticleFrame with_heights(const Particles& particles, std::vector<float>& heights,
                                       std::vector<ParticleArray>& arrays) {
         for (std::size_t i = 0; i < particles.count(); ++i) heights.push_back(particles.positions[3 * i + 2]);
@@ -91,7 +92,7 @@ protected:
         return frame;
     }
     /// A rank's, dealt at random.
-    static void push(ranks::PartsJob& job, const PartExchange& exchange, std::uint64_t index, double time) {
+    void push(ranks::PartsJob& job, const PartExchange& exchange, std::uint64_t index, double time) const {
         const Particles all = frame_of(index);
         std::mt19937 random(static_cast<unsigned>(index));
         Particles mine;
@@ -103,7 +104,7 @@ protected:
         const ParticleFrame frame = with_heights(mine, heights, arrays);
         EXPECT_TRUE(job.push([&] { return frame; }, index, time));
     }
-    static std::vector<Corners> triangles_of_whole(std::uint64_t index) {
+    std::vector<Corners> triangles_of_whole(std::uint64_t index) const {
         Settings settings = default_settings();
         settings.cell_size = 0.25;
         settings.attributes = {"height"};
@@ -119,13 +120,8 @@ protected:
         return refusal([&] { ranks::PartsJob(alone, true, options(more)); });
     }
 
-    TemporaryDirectory directory_;
-    std::filesystem::path folder_ = directory_ / "surfaces/of <all> & \"more\"";
-};
-
-TEST_F(RankFiles, AreTogetherTheSurfaceOfOneProcess) {
-    for (const std::size_t ranks : {1, 3, 4}) {
-        folder_ = directory_ / ("of-" + std::to_string(ranks));
+    /// Frames 5 to 7 by all ranks.
+    void make(std::size_t ranks) const {
         on_ranks(ranks, [&](PartExchange& exchange) {
             ranks::PartsJob job(exchange, exchange.rank() == 0, options());
             EXPECT_EQ(job.session_id(), "");
@@ -133,6 +129,8 @@ TEST_F(RankFiles, AreTogetherTheSurfaceOfOneProcess) {
                 push(job, exchange, index, .25 * static_cast<double>(index));
             job.finish();
         });
+    }
+    void expect_whole(std::size_t ranks) const {
         std::map<std::string, std::vector<Corners>> frames;
         for (const Listed& listed : list())
             frames[listed.time] = triangles_of(formats::read_mesh(folder_ / listed.file), frames[listed.time]);
@@ -142,6 +140,26 @@ TEST_F(RankFiles, AreTogetherTheSurfaceOfOneProcess) {
         EXPECT_EQ(frames["1.5"], triangles_of_whole(6));
         EXPECT_EQ(frames["1.75"], triangles_of_whole(7));
     }
+
+    float east_ = 0.0F;
+    TemporaryDirectory directory_;
+    std::filesystem::path folder_ = directory_ / "surfaces/of <all> & \"more\"";
+};
+
+TEST_F(RankFiles, AreTogetherTheSurfaceOfOneProcess) {
+    for (const std::size_t ranks : {1, 3, 4}) {
+        folder_ = directory_ / ("of-" + std::to_string(ranks));
+        make(ranks);
+        expect_whole(ranks);
+    }
+}
+
+// Beyond 2^23 lattice units float32 does not do, and parts on either side of that have one border.
+TEST_F(RankFiles, OfOneFrameHaveOnePrecision) {
+    east_ = 819.0F;
+    make(3);
+    expect_whole(3);
+    EXPECT_EQ(formats::read_mesh(folder_ / list()[0].file).wide, formats::read_mesh(folder_ / list()[2].file).wide);
 }
 
 TEST_F(RankFiles, AreListedByNumberWhereTimesDoNotIncrease) {
@@ -187,6 +205,45 @@ TEST_F(RankFiles, OfAFrameThatLacksAPartAreNotListedAndDoNotStay) {
     EXPECT_EQ(files, listed);
 }
 
+// The frame before the last one cannot be written, which finish() tells.
+TEST_F(RankFiles, OfTheLastFrameAreThereWhereTheFrameBeforeItHasFailed) {
+    std::filesystem::create_directories(folder_ / "surface-000001-part-1.vtp/in-the-way");
+    on_ranks(2, [&](PartExchange& exchange) {
+        ranks::PartsJob job(exchange, exchange.rank() == 0, options());
+        for (std::uint64_t index = 0; index < 3; ++index) push(job, exchange, index, static_cast<double>(index));
+        const std::string told = refusal<ProcessFailed>([&] { job.finish(); });
+        EXPECT_NE(told.find("surface-000001-part-1.vtp"), std::string::npos) << told;
+    });
+    ASSERT_EQ(list().size(), 4U);
+    EXPECT_EQ(list()[1].file, "surface-000000-part-1.vtp");
+    EXPECT_EQ(list()[3].file, "surface-000002-part-1.vtp");
+    EXPECT_TRUE(std::filesystem::exists(folder_ / list()[3].file));
+}
+
+TEST_F(RankFiles, OfFramesBeforeOneThatCannotBeMadeAreListed) {
+    AloneExchange alone;
+    ranks::PartsJob job(alone, true, options({{"memory-limit", "4000000"}, {"attribute", ""}}));
+    for (std::uint64_t index = 0; index < 2; ++index)
+        EXPECT_TRUE(job.push([&] { return frame_of(index).frame(); }, index, static_cast<double>(index)));
+    const Particles large = splash(1, 60);
+    EXPECT_TRUE(job.push([&] { return large.frame(); }, 2, 2.0));
+    EXPECT_NE(refusal<LimitExceeded>([&] { job.finish(); }), "");
+    EXPECT_EQ(list().size(), 2U);
+}
+
+TEST_F(RankFiles, OfOneJobAreTheFoldersOnlyOnes) {
+    AloneExchange alone;
+    {
+        const ranks::PartsJob first(alone, true, options());
+        EXPECT_NE(refused({}).find("surface.pvd is there: name a folder without one"), std::string::npos);
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "surface.pvd"));  // it has no frames
+    const ranks::SurfaceList list(folder_, 7);
+    EXPECT_TRUE(ranks::SurfaceList::is_in(folder_, 7));
+    EXPECT_FALSE(ranks::SurfaceList::is_in(folder_, 8));
+    EXPECT_FALSE(ranks::SurfaceList::is_in(directory_.path(), 7));
+}
+
 TEST_F(RankFiles, OfAJobThatEndsWithoutAnErrorOfItsOwnAreListedAsFarAsTheyAreKnown) {
     AloneExchange alone;
     {
@@ -210,6 +267,7 @@ TEST_F(RankFiles, AreRefusedWhereAListIsOrAServerIsNamed) {
         "rank 0: option 'spray' is 'points', which the files of 'output' have no place for: must be keep or discard");
     EXPECT_FALSE(std::filesystem::exists(folder_));
     EXPECT_EQ(refused({}), "");
+    std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "surface.pvd") << "a list";
     EXPECT_EQ(refused({}), "rank 0: " + (folder_ / "surface.pvd").string() +
                                " is there: name a folder without one, or move away what another run has written");
