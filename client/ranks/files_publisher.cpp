@@ -13,14 +13,14 @@ std::string FilesPublisher::open(const MakerPlace& place) {
     if (place.number == 0)
         list_.emplace(folder_, place.run);
     else if (!SurfaceList::is_in(folder_, place.run))
-        throw InvalidInput("option 'output' is '" + folder_.string() +
-                           "' here, where the list is not that the first rank that reconstructs has made in its folder "
-                           "of this name: name a folder that the machines share");
+        throw InvalidInput(
+            "option 'output' is '" + folder_.string() +
+            "', but that folder has not the list here that the first rank that reconstructs has just made "
+            "in its own: name a folder that all machines share");
     return {};
 }
 
 void FilesPublisher::show(const LivePart& part) {
-    list_shown();
     if (list_) list_->write_in_time();
     Shown shown{{part.index, part.simulation_time, part.report.own_vertices.size()}, {}};
     if (part.mesh != nullptr) {
@@ -33,7 +33,7 @@ void FilesPublisher::show(const LivePart& part) {
     shown_ = std::move(shown);
 }
 
-void FilesPublisher::list_shown() {
+void FilesPublisher::confirm() noexcept {
     if (shown_ && list_) list_->add(shown_->frame);
     shown_.reset();
 }
@@ -45,7 +45,6 @@ void FilesPublisher::leave() noexcept {
 }
 
 void FilesPublisher::finish() {
-    list_shown();
     if (list_) list_->write();
 }
 

@@ -19,19 +19,18 @@ public:
     /// The first maker makes the folder. Throws InvalidInput as SurfaceList, and where another maker does not see it.
     std::string open(const MakerPlace& place) override;
     void finish() override;
+    /// Lists it.
+    void confirm() noexcept override;
 
 private:
     void show(const LivePart& part) override;
     void leave() noexcept override;
 
-    /// What this maker has written of a frame. Whether the others have written theirs is known with the next one.
+    /// What this maker has written of a frame, until all have theirs.
     struct Shown {
         SurfaceList::Frame frame;
         std::filesystem::path file;  ///< empty: it has no part of the frame
     };
-    /// It is there whole.
-    void list_shown();
-
     std::filesystem::path folder_;
     std::optional<SurfaceList> list_;  ///< the first maker's
     std::optional<Shown> shown_;

@@ -1,7 +1,6 @@
 #include "ranks/parts_job.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <random>
 
 #include "meniscus/client/errors.hpp"
@@ -83,21 +82,13 @@ void PartsJob::finish_others() noexcept {
 }
 
 void PartsJob::finish() {
-    std::exception_ptr failed;
+    is_finished_ = true;
     try {
         in_words_of_server([&] { live_->finish(); });
-    } catch (const PublishingFailed&) {
-        failed = std::current_exception();
-    } catch (const ProcessFailed&) {
-        throw;  // it is not known what the others have published
     } catch (...) {
-        failed = std::current_exception();
-    }
-    if (failed) {
         finish_others();
-        std::rethrow_exception(failed);
+        throw;
     }
-    is_finished_ = true;
     agreed(exchange_, [&] {
         if (is_maker_) publisher_->finish();
         return std::string();

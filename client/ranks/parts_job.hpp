@@ -26,8 +26,8 @@ public:
 
     /// As LiveParts::push(), with client::ServerError in place of a session's PublishingFailed. mine: may throw.
     bool push(const FrameGiver& mine, std::uint64_t index, double simulation_time);
-    /// Publishes what was pushed, and waits until the server has answered, or the files are listed. No frame may follow
-    /// once it has.
+    /// Publishes what was pushed, and waits until the server has answered, or the files are listed. No frame may
+    /// follow.
     void finish();
     /// Empty where files are written.
     const std::string& session_id() const { return session_id_; }

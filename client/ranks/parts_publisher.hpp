@@ -24,7 +24,7 @@ class PartsPublisher : public LivePublisher {
 public:
     /// Returns the session's id, empty where there is no session. Throws what hinders it.
     virtual std::string open(const MakerPlace& place) = 0;
-    /// Waits until all that was published is where it goes, of all makers.
+    /// Waits until what was published, and confirmed, is where it goes.
     virtual void finish() = 0;
 
     void publish(const LivePart& part) final {

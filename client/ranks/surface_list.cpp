@@ -39,12 +39,13 @@ std::string beginning_of(std::uint64_t run) {
 
 /// Writes a file that was not there. Throws InvalidInput.
 void make_file(const std::filesystem::path& path, const std::string& text) {
+    errno = 0;
     const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno == EEXIST)
         throw InvalidInput(path.string() +
                            " is there: name a folder without one, or move away what another run has written");
     const bool is_written = descriptor >= 0 && ::write(descriptor, text.data(), text.size()) == ssize_t(text.size());
-    const int error = errno;
+    const int error = descriptor >= 0 && errno == 0 ? ENOSPC : errno;  // of which a part was written
     if (descriptor >= 0) ::close(descriptor);
     if (is_written) return;
     if (descriptor >= 0) ::unlink(path.c_str());
@@ -80,7 +81,7 @@ bool SurfaceList::is_in(const std::filesystem::path& folder, std::uint64_t run) 
     return list && text == expected;
 }
 
-void SurfaceList::add(const Frame& frame) {
+void SurfaceList::add(const Frame& frame) noexcept {
     if (!frames_.empty() && !(frames_.back().simulation_time < frame.simulation_time)) times_increase_ = false;
     frames_.push_back(frame);
     is_written_ = false;

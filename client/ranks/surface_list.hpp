@@ -32,9 +32,9 @@ public:
         double simulation_time = 0.0;
         std::size_t parts = 1;
     };
-    void add(const Frame& frame);
+    void add(const Frame& frame) noexcept;
     /// Now, or later: a list of many frames is written again for each of them, and takes about a twentieth of the time
-    /// at most. Throws ProcessFailed where it cannot, here and below.
+    /// at most. Throws as PvdWriter, but ProcessFailed for a path that cannot be written, here and below.
     void write_in_time();
     void write();
 

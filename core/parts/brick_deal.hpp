@@ -12,7 +12,7 @@
 
 namespace meniscus {
 
-/// The work for a particle over that for a triangle. (core/README.md#parts-in-turn-in-one-process-or-several)
+/// The work for a particle, in triangles. (core/README.md#parts-in-turn-in-one-process-or-several)
 inline constexpr std::uint64_t particle_over_triangle = 5;
 
 /// What a process has in a brick.
@@ -20,7 +20,7 @@ struct BrickLoad {
     BrickCoordinate brick{};
     std::uint32_t rank = 0;
     std::uint32_t particles = 0;
-    std::uint32_t triangles = 0;  ///< those that it has made there in the frame before
+    std::uint32_t triangles = 0;  ///< those that it has made there in the last frame
 
     /// Whole: its sums do not depend on their order.
     std::uint64_t work() const { return particle_over_triangle * particles + triangles; }

@@ -37,12 +37,12 @@ public:
     }
 
     void finish() {
-        std::exception_ptr failed;
+        std::string failed;
         come_to_rest(failed);
         settle(true);
         work(Making::nothing);
         come_to_rest(failed);
-        if (failed) std::rethrow_exception(failed);
+        if (!failed.empty()) throw PublishingFailed(failed);
     }
 
     std::uint64_t next_index() const { return last_index_ ? *last_index_ + 1 : 0; }
@@ -82,18 +82,19 @@ private:
         const auto failed =
             std::find_if(all.begin(), all.end(), [](const Presence& its) { return !its.failure.empty(); });
         if (failed != all.end()) fail("rank " + std::to_string(failed - all.begin()) + ": " + failed->failure);
+        if (is_maker_) publisher_.confirm();
         return !is_one(&Presence::is_away);
     }
 
-    /// Waits until no process is at work. failed: gets the first frame's error that was not published: the next one
-    /// still may be.
-    void come_to_rest(std::exception_ptr& failed) {
+    /// Waits until no process is at work. failed: gets the error of a frame that was not published: the next one still
+    /// may be.
+    void come_to_rest(std::string& failed) {
         for (bool is_at_rest = false; !is_at_rest;) {
             worker_.wait();
             try {
                 is_at_rest = come_together({.ends = true}, [] {});
-            } catch (const PublishingFailed&) {
-                if (!failed) failed = std::current_exception();
+            } catch (const PublishingFailed& failure) {
+                failed.append(failed.empty() ? "" : "; ").append(failure.what());
             }
         }
     }

@@ -31,6 +31,8 @@ namespace {
 /// Of a process beside a simulation, which are looked at for the deal: it has one part at most, and the parts' shares
 /// are even to some percent.
 constexpr std::size_t particles_for_deal = 8192;
+/// Bricks with surface of such a process, likewise.
+constexpr std::size_t surfaces_for_deal = 8192;
 
 }  // namespace
 
@@ -87,7 +89,7 @@ public:
             overlaps_.assign(own_.size(), options_.overlap);
             told_ = {};
             borders_.clear();
-            surfaces_.clear();
+            making_.clear();
             report_ = {};
             error_ = nullptr;
             wanted_.resize(own_.size());
@@ -160,8 +162,9 @@ private:
         const std::size_t group = pace_ == Pace::at_once ? 1 : mine.count() / particles_for_deal;
         facts.loads = brick_loads(mine, settings_, static_cast<std::uint32_t>(agreement_.rank()),
                                   std::max<std::size_t>(group, 1));
-        for (const auto& [part, surface] : surfaces_)
-            facts.loads.insert(facts.loads.end(), surface.begin(), surface.end());
+        if (pace_ == Pace::beside_a_simulation)
+            for (const auto& [part, surface] : surfaces_)
+                facts.loads.insert(facts.loads.end(), surface.begin(), surface.end());
         facts.ranges = array_ranges(mine, settings_);
         return facts;
     }
@@ -203,8 +206,8 @@ private:
         const PartOutcome outcome = reconstructor_->reconstruct_part(particles, its, mesh_);
         const Statistics& statistics = reconstructor_->statistics();
         told_.take(number, MadePart(number, particles.count(), statistics, outcome), mesh_);
-        // Of a process that makes many parts the largest decides how much memory it takes: those have equal particles.
-        if (pace_ == Pace::beside_a_simulation) surfaces_.insert_or_assign(number, surface_loads());
+        // Where one process makes many parts, the largest decides its memory: those are dealt by particles alone.
+        if (pace_ == Pace::beside_a_simulation) making_.insert_or_assign(number, surface_loads());
         borders_.insert_or_assign(number, PartBorder(number, outcome.seams, mesh_, own_));
         report_.whole.peak_bytes = std::max(report_.whole.peak_bytes, statistics.peak_bytes);
         report_.whole.device_peak_bytes = std::max(report_.whole.device_peak_bytes, statistics.device_peak_bytes);
@@ -213,13 +216,18 @@ private:
         sink({number, its, mesh_, statistics});
     }
 
-    /// Of the part that was made last.
+    /// Of the part that was made last: of each of so many bricks, one after the other, one stands for all, so that what
+    /// all processes get has a bound.
     std::vector<BrickLoad> surface_loads() const {
+        const std::span<const MeshBrick> bricks(mesh_.bricks);
+        const std::size_t group = bricks.size() / surfaces_for_deal + 1;
         std::vector<BrickLoad> loads;
-        loads.reserve(mesh_.bricks.size());
-        for (const MeshBrick& brick : mesh_.bricks)
-            loads.push_back(
-                {brick.coordinate, static_cast<std::uint32_t>(agreement_.rank()), 0, brick.triangle_count()});
+        for (std::size_t first = 0; first < bricks.size(); first += group) {
+            const std::size_t end = std::min(first + group, bricks.size());
+            BrickLoad load{bricks[(first + end) / 2].coordinate, static_cast<std::uint32_t>(agreement_.rank()), 0, 0};
+            for (std::size_t b = first; b < end; ++b) load.triangles += bricks[b].triangle_count();
+            loads.push_back(load);
+        }
         return loads;
     }
 
@@ -260,6 +268,8 @@ private:
 
     /// What is quickly done: the rest is for report().
     void finish(std::vector<PartExchange::Bytes> told) {
+        // Of whole frames alone: a part that could not be made would seem to be no work.
+        surfaces_.swap(making_);
         report_.greatest_overlap = *std::max_element(overlaps_.begin(), overlaps_.end());
         Statistics& whole = report_.whole;
         whole.particles = facts_.particles();
@@ -301,7 +311,8 @@ private:
     std::optional<Warning> wrong_radius_;
     PartsReport report_;                                            ///< without what is summed up of the parts
     PartsTold told_;                                                ///< by this process
-    std::map<std::size_t, std::vector<BrickLoad>> surfaces_;        ///< of these, for the next frame's deal
+    std::map<std::size_t, std::vector<BrickLoad>> making_;          ///< the triangles of these
+    std::map<std::size_t, std::vector<BrickLoad>> surfaces_;        ///< the last finished frame's, for the next deal
     Borders borders_;                                               ///< of its parts
     std::vector<PartExchange::Bytes> to_touching_, from_touching_;  ///< of these, to the parts beyond
     // Of the round:

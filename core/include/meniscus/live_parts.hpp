@@ -23,7 +23,7 @@ struct LivePart {
     std::uint64_t index = 0;
     double simulation_time = 0.0;
     const Mesh* mesh;        ///< null where the frame has fewer parts than there are makers
-    std::size_t number = 0;  ///< of the part, below the size of report.own_vertices
+    std::size_t number = 0;  ///< of the part, if there is one: below the size of report.own_vertices
     /// Of the part, such that all parts' add up to the whole frame's: what belongs to no part is counted by the first.
     Statistics statistics;
     const PartsReport& report;  ///< the whole frame's
@@ -38,6 +38,9 @@ public:
     virtual void publish(const LivePart& part) = 0;
     /// The publisher of some maker has failed: closes what is open.
     virtual void abandon() noexcept = 0;
+    /// What was published last is published by all makers. Called while neither of the others runs, also more than
+    /// once.
+    virtual void confirm() noexcept {}
     /// Whether no frame need be made now, since none could be published. Called by push(), while neither of
     /// the others runs.
     virtual bool is_away() const noexcept { return false; }

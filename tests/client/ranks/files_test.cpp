@@ -136,9 +136,9 @@ protected:
             frames[listed.time] = triangles_of(formats::read_mesh(folder_ / listed.file), frames[listed.time]);
         ASSERT_EQ(frames.size(), 3U);
         EXPECT_EQ(list().size(), 3 * ranks);
-        EXPECT_EQ(frames["1.25"], triangles_of_whole(5));
-        EXPECT_EQ(frames["1.5"], triangles_of_whole(6));
-        EXPECT_EQ(frames["1.75"], triangles_of_whole(7));
+        EXPECT_TRUE(frames["1.25"] == triangles_of_whole(5));
+        EXPECT_TRUE(frames["1.5"] == triangles_of_whole(6));
+        EXPECT_TRUE(frames["1.75"] == triangles_of_whole(7));
     }
 
     float east_ = 0.0F;
@@ -223,8 +223,9 @@ TEST_F(RankFiles, OfTheLastFrameAreThereWhereTheFrameBeforeItHasFailed) {
 TEST_F(RankFiles, OfFramesBeforeOneThatCannotBeMadeAreListed) {
     AloneExchange alone;
     ranks::PartsJob job(alone, true, options({{"memory-limit", "4000000"}, {"attribute", ""}}));
+    const Particles small = frame_of(0);
     for (std::uint64_t index = 0; index < 2; ++index)
-        EXPECT_TRUE(job.push([&] { return frame_of(index).frame(); }, index, static_cast<double>(index)));
+        EXPECT_TRUE(job.push([&] { return small.frame(); }, index, static_cast<double>(index)));
     const Particles large = splash(1, 60);
     EXPECT_TRUE(job.push([&] { return large.frame(); }, 2, 2.0));
     EXPECT_NE(refusal<LimitExceeded>([&] { job.finish(); }), "");

@@ -51,7 +51,7 @@ TEST(DealParts, GivesAsManyToEachMakerWhateverTheyHave) {
                     const auto place = [&] { return static_cast<std::int32_t>(random() % 20); };
                     // Most of them on few ranks.
                     const auto rank = static_cast<std::uint32_t>(random() % (1 + random() % ranks));
-                    loads.push_back({{place(), place(), place()}, rank, static_cast<std::uint32_t>(1 + random() % 50)});
+                    loads.push_back({{place(), place(), place()}, rank, static_cast<std::uint32_t>(random() % 50), 7});
                 }
                 const BrickDeal deal = deal_bricks(loads, parts);
                 std::map<std::size_t, std::size_t> parts_of;

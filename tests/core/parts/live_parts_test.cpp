@@ -124,8 +124,8 @@ TEST(LiveParts, PublishTheWholesMeshOfEachFrameWhoeverMakesIt) {
     }
 }
 
-TEST(LiveParts, AreDealtByTheSurfaceOfTheFrameBefore) {
-    // A block of water, and drops beside it: much surface of few particles.
+/// A block of water, and drops beside it: much surface of few particles.
+test::Particles block_and_drops() {
     test::Particles particles;
     for (int i = 0; i < 16 * 16 * 16; ++i)
         particles.add(static_cast<float>(i % 16) * 0.05F, static_cast<float>(i / 16 % 16) * 0.05F,
@@ -133,13 +133,19 @@ TEST(LiveParts, AreDealtByTheSurfaceOfTheFrameBefore) {
     for (int i = 0; i < 16 * 4 * 4; ++i)
         particles.add(1.2F + static_cast<float>(i % 16) * 0.2F, static_cast<float>(i / 16 % 4) * 0.2F,
                       static_cast<float>(i / 64) * 0.2F);
+    return particles;
+}
+
+TEST(LiveParts, AreDealtByTheSurfaceOfTheFrameBefore) {
+    const test::Particles particles = block_and_drops();
     Shown shown;
     test::on_ranks(2, [&](test::ThreadExchange& exchange) {
         Publisher publisher(shown);
         LiveParts parts(test::default_settings(), {Backend::cpu, 1, 0}, {.parts = 2}, LivePolicy::every_frame, exchange,
                         publisher);
-        for (std::uint64_t i = 0; i < 2; ++i)
-            EXPECT_TRUE(parts.push(share_of(particles, i, exchange.rank(), 2).frame(), i, 0.0));
+        // One rank owns all of them: the other one makes the drops.
+        const test::Particles mine = exchange.rank() == 1 ? particles : test::Particles();
+        for (std::uint64_t i = 0; i < 2; ++i) EXPECT_TRUE(parts.push(mine.frame(), i, 0.0));
         parts.finish();
     });
     const auto most = [&shown](std::uint64_t index) {
@@ -149,6 +155,36 @@ TEST(LiveParts, AreDealtByTheSurfaceOfTheFrameBefore) {
     };
     EXPECT_LT(static_cast<double>(most(1)), 0.9 * static_cast<double>(most(0)));
     expect_whole(test::default_settings(), particles, shown.frames().at(1));
+}
+
+// A part that could not be made is no sign of little work.
+TEST(LiveParts, AreDealtAsBeforeOnceARankHasFailed) {
+    const test::Particles particles = block_and_drops();
+    test::Particles spike = particles;
+    for (int i = 0; i < 100000; ++i)
+        spike.add(static_cast<float>(i % 50) * 0.015F, static_cast<float>(i / 50 % 50) * 0.015F,
+                  static_cast<float>(i / 2500) * 0.015F);
+    Shown shown;
+    test::on_ranks(2, [&](test::ThreadExchange& exchange) {
+        Publisher publisher(shown);
+        LiveParts parts(test::default_settings(), {Backend::cpu, 1, std::size_t{16} << 20U}, {.parts = 2},
+                        LivePolicy::every_frame, exchange, publisher);
+        const auto push = [&](const test::Particles& all, std::uint64_t index) {
+            return parts.push(share_of(all, 0, exchange.rank(), 2).frame(), index, 0.0);
+        };
+        for (std::uint64_t i = 0; i < 3; ++i) EXPECT_TRUE(push(particles, i));
+        EXPECT_TRUE(push(spike, 3));
+        EXPECT_NE(test::refusal<LimitExceeded>([&] { push(particles, 4); }), "");
+        EXPECT_TRUE(push(particles, 5));
+        parts.finish();
+    });
+    ASSERT_EQ(shown.indices(), (std::set<std::uint64_t>{0, 1, 2, 5}));
+    const auto triangles = [&shown](std::uint64_t index) {
+        std::multiset<std::size_t> triangles_of_parts;
+        for (const Mesh& mesh : shown.frames().at(index).meshes) triangles_of_parts.insert(mesh.triangles.size());
+        return triangles_of_parts;
+    };
+    EXPECT_EQ(triangles(5), triangles(2));
 }
 
 TEST(LiveParts, PublishNoPartBeforeSeamsAreEqual) {
