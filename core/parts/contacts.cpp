@@ -79,6 +79,7 @@ PartBorder::PartBorder(std::size_t part, std::span<const Seam> seams, const Mesh
 void write_contacts(const Borders& borders, std::span<const std::size_t> rank_of,
                     std::vector<PartExchange::Bytes>& to) {
     std::vector<MessageWriter> messages;
+    messages.reserve(to.size());
     for (PartExchange::Bytes& bytes : to) messages.emplace_back(std::move(bytes));
     for (const auto& [part, border] : borders)
         for (auto at = border.touches.upper_bound(part); at != border.touches.end(); ++at) {
