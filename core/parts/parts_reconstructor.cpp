@@ -32,7 +32,7 @@ namespace {
 /// are even to some percent.
 constexpr std::size_t particles_for_deal = 8192;
 /// Bricks with surface of such a process, likewise.
-constexpr std::size_t surfaces_for_deal = 8192;
+constexpr std::size_t bricks_for_deal = 8192;
 
 }  // namespace
 
@@ -216,11 +216,11 @@ private:
         sink({number, its, mesh_, statistics});
     }
 
-    /// Of the part that was made last: of each of so many bricks, one after the other, one stands for all, so that what
-    /// all processes get has a bound.
+    /// The triangles of the part that was made last, by brick. A part of many bricks is cut into runs of them, and one
+    /// brick of each run has all the run's triangles: the message to all processes has a bound.
     std::vector<BrickLoad> surface_loads() const {
         const std::span<const MeshBrick> bricks(mesh_.bricks);
-        const std::size_t group = bricks.size() / surfaces_for_deal + 1;
+        const std::size_t group = bricks.size() / bricks_for_deal + 1;
         std::vector<BrickLoad> loads;
         for (std::size_t first = 0; first < bricks.size(); first += group) {
             const std::size_t end = std::min(first + group, bricks.size());
@@ -268,7 +268,7 @@ private:
 
     /// What is quickly done: the rest is for report().
     void finish(std::vector<PartExchange::Bytes> told) {
-        // Of whole frames alone: a part that could not be made would seem to be no work.
+        // A part that could not be made would seem to be no work: only finished frames count.
         surfaces_.swap(making_);
         report_.greatest_overlap = *std::max_element(overlaps_.begin(), overlaps_.end());
         Statistics& whole = report_.whole;
