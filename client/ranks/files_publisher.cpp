@@ -21,27 +21,30 @@ std::string FilesPublisher::open(const MakerPlace& place) {
 }
 
 void FilesPublisher::show(const LivePart& part) {
-    if (list_) list_->write_in_time();
-    Shown shown{{part.index, part.simulation_time, part.report.own_vertices.size()}, {}};
-    if (part.mesh != nullptr) {
-        shown.file = folder_ / surface_name(part.index, part.number, shown.frame.parts);
-        formats::TriangleMesh mesh = formats::to_triangles(*part.mesh);
-        // A border's vertices are the same in all parts.
-        mesh.wide = formats::needs_double(part.report.farthest);
-        formats::write_mesh_vtp(shown.file, mesh);
+    const std::size_t parts = part.report.own_vertices.size();
+    if (list_) {
+        list_->write_in_time();
+        list_->add({part.index, part.simulation_time, parts});
     }
-    shown_ = std::move(shown);
+    if (part.mesh == nullptr) return;
+    std::filesystem::path file = folder_ / surface_name(part.index, part.number, parts);
+    formats::TriangleMesh mesh = formats::to_triangles(*part.mesh);
+    // A border's vertices are the same in all parts.
+    mesh.wide = formats::needs_double(part.report.farthest);
+    formats::write_mesh_vtp(file, mesh);
+    shown_ = std::move(file);
 }
 
 void FilesPublisher::confirm() noexcept {
-    if (shown_ && list_) list_->add(shown_->frame);
-    shown_.reset();
+    if (list_) list_->confirm();
+    shown_.clear();
 }
 
 void FilesPublisher::leave() noexcept {
     std::error_code ignored;
-    if (shown_ && !shown_->file.empty()) std::filesystem::remove(shown_->file, ignored);
-    shown_.reset();
+    if (!shown_.empty()) std::filesystem::remove(shown_, ignored);
+    shown_.clear();
+    if (list_) list_->withdraw();
 }
 
 void FilesPublisher::finish() {

@@ -1,7 +1,6 @@
 // Publishes a rank's parts as files of a folder that all makers share. The first maker lists them.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -26,14 +25,9 @@ private:
     void show(const LivePart& part) override;
     void leave() noexcept override;
 
-    /// What this maker has written of a frame, until all have theirs.
-    struct Shown {
-        SurfaceList::Frame frame;
-        std::filesystem::path file;  ///< empty: it has no part of the frame
-    };
     std::filesystem::path folder_;
     std::optional<SurfaceList> list_;  ///< the first maker's
-    std::optional<Shown> shown_;
+    std::filesystem::path shown_;      ///< the file of a frame that the others have not confirmed; empty: none
 };
 
 }  // namespace meniscus::ranks

@@ -6,6 +6,8 @@
 #include "meniscus/client/errors.hpp"
 #include "meniscus/error.hpp"
 #include "ranks/agreed.hpp"
+#include "ranks/files_publisher.hpp"
+#include "ranks/session_publisher.hpp"
 
 namespace meniscus::ranks {
 namespace {
@@ -14,6 +16,11 @@ namespace {
 std::uint64_t drawn_run() {
     std::random_device random;
     return (std::uint64_t{random()} << 16) + 1;
+}
+
+std::unique_ptr<PartsPublisher> make_publisher(const PartsArguments& arguments) {
+    if (arguments.output.empty()) return std::make_unique<SessionPublisher>(arguments);
+    return std::make_unique<FilesPublisher>(arguments.output);
 }
 
 }  // namespace
@@ -38,7 +45,6 @@ PartsJob::PartsJob(PartExchange& exchange, bool leads_node, const text_options::
                                options_of.back() + ", and rank 0 has " + options_of.front() +
                                ": all must have the same, but for the server, the connection and the backend");
     }
-    has_server_ = arguments->output.empty();
     const std::vector<std::size_t> makers = ranks_of(arguments->makers, lead_nodes);
     agreed(exchange_, [&] {
         live_.emplace(arguments->settings, arguments->backend, PartsOptions{makers.size(), arguments->overlap, makers},
@@ -62,7 +68,7 @@ auto PartsJob::in_words_of_server(const Call& call) {
     try {
         return call();
     } catch (const PublishingFailed& failure) {
-        if (!has_server_) throw;
+        if (session_id_.empty()) throw;
         throw client::ServerError(failure.what(), client::ErrorCode::unavailable);
     }
 }

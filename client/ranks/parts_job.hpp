@@ -46,7 +46,6 @@ private:
     std::unique_ptr<PartsPublisher> publisher_;
     std::optional<LiveParts> live_;  ///< goes first
     std::string session_id_;
-    bool has_server_ = true;
     bool is_maker_ = false;
     bool is_finished_ = false;
 };

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 
-#include "ranks/files_publisher.hpp"
-#include "ranks/session_publisher.hpp"
-
 namespace meniscus::ranks {
 namespace {
 
@@ -16,11 +13,6 @@ void PartsPublisher::abandon() noexcept {
     leave();
     next_attempt_ = Clock::now() + pause_;
     pause_ = std::min(2 * pause_, longest_pause);
-}
-
-std::unique_ptr<PartsPublisher> make_publisher(const PartsArguments& arguments) {
-    if (arguments.output.empty()) return std::make_unique<SessionPublisher>(arguments);
-    return std::make_unique<FilesPublisher>(arguments.output);
 }
 
 }  // namespace meniscus::ranks

@@ -4,11 +4,9 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 
 #include "meniscus/live_parts.hpp"
-#include "ranks/parts_options.hpp"
 
 namespace meniscus::ranks {
 
@@ -45,8 +43,5 @@ private:
     std::chrono::seconds pause_ = first_pause;
     Clock::time_point next_attempt_{};
 };
-
-/// Of a session, or of files.
-std::unique_ptr<PartsPublisher> make_publisher(const PartsArguments& arguments);
 
 }  // namespace meniscus::ranks

@@ -7,6 +7,7 @@
 
 #include "meniscus/client/received_frame.hpp"
 #include "ranks/brick_upload.hpp"
+#include "ranks/parts_options.hpp"
 #include "ranks/parts_publisher.hpp"
 
 namespace meniscus::ranks {

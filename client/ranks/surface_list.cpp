@@ -1,12 +1,11 @@
 #include "ranks/surface_list.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <exception>
 #include <fstream>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -32,24 +31,27 @@ std::string padded(std::uint64_t number, std::size_t digits) {
 
 /// A list without frames.
 std::string beginning_of(std::uint64_t run) {
-    return "<?xml version=\"1.0\"?>\n<!-- run " + std::to_string(run) +
-           " has no frames yet -->\n"
-           "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\"><Collection/></VTKFile>\n";
+    return std::string(formats::pvd_begin)
+        .append("    <!-- run " + std::to_string(run) + " has no frames yet -->\n")
+        .append(formats::pvd_end);
 }
 
 /// Writes a file that was not there. Throws InvalidInput.
 void make_file(const std::filesystem::path& path, const std::string& text) {
-    errno = 0;
-    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor < 0 && errno == EEXIST)
+    const auto fail = [&path] {
+        throw InvalidInput(path.string() + ": cannot be written: " + std::generic_category().message(errno));
+    };
+    std::FILE* const file = std::fopen(path.c_str(), "wxe");
+    if (file == nullptr && errno == EEXIST)
         throw InvalidInput(path.string() +
                            " is there: name a folder without one, or move away what another run has written");
-    const bool is_written = descriptor >= 0 && ::write(descriptor, text.data(), text.size()) == ssize_t(text.size());
-    const int error = descriptor >= 0 && errno == 0 ? ENOSPC : errno;  // of which a part was written
-    if (descriptor >= 0) ::close(descriptor);
-    if (is_written) return;
-    if (descriptor >= 0) ::unlink(path.c_str());
-    throw InvalidInput(path.string() + ": cannot be written: " + std::generic_category().message(error));
+    if (file == nullptr) fail();
+    std::fputs(text.c_str(), file);
+    if (std::fclose(file) == 0) return;  // which writes it
+    const int error = errno;
+    std::filesystem::remove(path);
+    errno = error;
+    fail();
 }
 
 }  // namespace
@@ -66,8 +68,8 @@ SurfaceList::SurfaceList(std::filesystem::path folder, std::uint64_t run) : fold
 
 SurfaceList::~SurfaceList() {
     try {
-        if (!is_written_) write();
-        if (frames_.empty()) std::filesystem::remove(list_of(folder_));
+        if (written_ != whole_) write();
+        if (whole_ == 0) std::filesystem::remove(list_of(folder_));
     } catch (const std::exception&) {
         // Of files that could not be written the last push has told.
     }
@@ -81,23 +83,25 @@ bool SurfaceList::is_in(const std::filesystem::path& folder, std::uint64_t run) 
     return list && text == expected;
 }
 
-void SurfaceList::add(const Frame& frame) noexcept {
-    if (!frames_.empty() && !(frames_.back().simulation_time < frame.simulation_time)) times_increase_ = false;
+void SurfaceList::add(const Frame& frame) {
     frames_.push_back(frame);
-    is_written_ = false;
 }
 
 void SurfaceList::write_in_time() {
-    if (!is_written_ && Clock::now() >= next_) write();
+    if (written_ != whole_ && Clock::now() >= next_) write();
 }
 
 void SurfaceList::write() {
     const Clock::time_point begin = Clock::now();
+    const std::span<const Frame> whole(frames_.data(), whole_);
+    const bool times_increase = std::ranges::adjacent_find(whole, [](const Frame& a, const Frame& b) {
+                                    return a.simulation_time >= b.simulation_time;
+                                }) == whole.end();
     try {
         formats::PvdWriter list(list_of(folder_));
-        for (const Frame& frame : frames_) {
+        for (const Frame& frame : whole) {
             std::string time;
-            times_increase_ ? append_shortest(time, frame.simulation_time) : append_shortest(time, frame.index);
+            times_increase ? append_shortest(time, frame.simulation_time) : append_shortest(time, frame.index);
             for (std::size_t part = 0; part < frame.parts; ++part)
                 list.add(time, part, surface_name(frame.index, part, frame.parts));
         }
@@ -105,7 +109,7 @@ void SurfaceList::write() {
     } catch (const InvalidInput& error) {
         throw ProcessFailed(error.what());  // no argument of a caller is wrong
     }
-    is_written_ = true;
+    written_ = whole_;
     next_ = Clock::now() + (least_share - 1) * (Clock::now() - begin);
 }
 

@@ -24,7 +24,7 @@ public:
     SurfaceList(const SurfaceList&) = delete;
     SurfaceList& operator=(const SurfaceList&) = delete;
 
-    /// Whether this run's list, without frames yet, is in the folder.
+    /// Whether this run's list, still without frames yet, is in the folder.
     static bool is_in(const std::filesystem::path& folder, std::uint64_t run);
 
     struct Frame {
@@ -32,7 +32,11 @@ public:
         double simulation_time = 0.0;
         std::size_t parts = 1;
     };
-    void add(const Frame& frame) noexcept;
+    /// A frame that is listed once confirm() says that it is whole.
+    void add(const Frame& frame);
+    void confirm() noexcept { whole_ = frames_.size(); }
+    /// It is not.
+    void withdraw() noexcept { frames_.resize(whole_); }
     /// Now, or later: a list of many frames is written again for each of them, and takes about a twentieth of the time
     /// at most. Throws as PvdWriter, but ProcessFailed for a path that cannot be written, here and below.
     void write_in_time();
@@ -43,8 +47,8 @@ private:
 
     std::filesystem::path folder_;
     std::vector<Frame> frames_;
-    bool times_increase_ = true;
-    bool is_written_ = true;
+    std::size_t whole_ = 0;    ///< of them, the first ones
+    std::size_t written_ = 0;  ///< of these, in the list as it is
     Clock::time_point next_;
 };
 

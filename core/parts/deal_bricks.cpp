@@ -36,7 +36,7 @@ struct Layer {
     double work = 0.0;
 };
 
-/// Those with work, and of some without, ascending.
+/// Ascending; some may have no work.
 std::vector<Layer> layers_of(std::span<const BrickLoad> loads, std::size_t axis) {
     std::vector<Layer> layers;
     if (loads.empty()) return layers;

@@ -15,7 +15,7 @@ namespace meniscus {
 struct FrameFacts {
     FrameForm form;
     ParticlesByLevel by_level{};
-    std::vector<BrickLoad> loads;  ///< particles, and triangles that the process has made in the frame before
+    std::vector<BrickLoad> loads;  ///< particles, and triangles that the process has made in the last frame
     std::vector<ArrayRange> ranges;
 
     std::uint64_t particles() const { return std::accumulate(by_level.begin(), by_level.end(), std::uint64_t{0}); }

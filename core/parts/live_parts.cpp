@@ -2,7 +2,6 @@
 #include "meniscus/live_parts.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <string>
 #include <utility>
 #include <vector>

@@ -11,13 +11,12 @@ namespace meniscus::catalyst {
 PartsFrames::PartsFrames(const RunOptions& options, const Ranks& ranks, Notices& notices)
     : Frames(options, ranks, notices), parts_options_(options.session) {
     parts_options_.insert(options.connection.begin(), options.connection.end());
-    if (!options.output.empty()) {
+    if (options.output.empty()) {
+        parts_options_.insert_or_assign("session", session_id());
+        parts_options_.insert_or_assign("server", options.server);
+    } else {
         parts_options_.insert_or_assign("output", options.output);
-        if (const meniscus_result result = open(); result < 0) throw failure(result);
-        return;
     }
-    parts_options_.insert_or_assign("session", session_id());
-    parts_options_.insert_or_assign("server", options.server);
     if (const meniscus_result result = open(); result < 0 && !is_away(result)) throw failure(result);
     if (parts_ == nullptr) lose("frames are left out until the server is there");
     // The simulation goes on now, and is held up by no server that does not answer.

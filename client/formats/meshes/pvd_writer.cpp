@@ -23,9 +23,7 @@ std::string quoted_in_xml(std::string_view text) {
 }  // namespace
 
 PvdWriter::PvdWriter(const std::filesystem::path& path) : file_(path) {
-    file_.write(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-        "  <Collection>\n");
+    file_.write(pvd_begin);
 }
 
 void PvdWriter::add(std::string_view time, std::size_t part, std::string_view file) {
@@ -39,7 +37,7 @@ void PvdWriter::add(std::string_view time, std::size_t part, std::string_view fi
 }
 
 void PvdWriter::commit() {
-    file_.write("  </Collection>\n</VTKFile>\n");
+    file_.write(pvd_end);
     file_.commit();
 }
 

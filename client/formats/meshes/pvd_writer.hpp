@@ -10,6 +10,12 @@
 
 namespace meniscus::formats {
 
+/// What lies around the files of a list.
+inline constexpr std::string_view pvd_begin =
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  "
+    "<Collection>\n";
+inline constexpr std::string_view pvd_end = "  </Collection>\n</VTKFile>\n";
+
 /// Writes it, atomically: what it was given, once commit() has been called. All throw as AtomicFile does.
 class PvdWriter {
 public:
