@@ -67,10 +67,10 @@ SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& bac
       memory_(shared_memory(limits.total_bytes)),
       snapshots_(limits.snapshots, limits.snapshots_per_name) {
     joining_ = std::thread([this] {
-        while (auto session = removed_.take()) {
-            (*session)->join();
-            if (const auto& account = (*session)->account()) --account->ending;
-            session->reset();
+        while (auto session = removed_.take().value_or(nullptr)) {
+            session->join();
+            if (const auto& account = session->account()) --account->ending;
+            session.reset();
             --ending_;
             sessions_have_ended_ = true;
         }
@@ -81,9 +81,10 @@ SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& bac
 
 SessionRegistry::~SessionRegistry() {
     idle_check_.reset();
-    removed_.close();
-    joining_.join();
     for (const auto& [id, session] : sessions_) session->close("the server goes down");
+    remove_ended();
+    removed_.put(nullptr);
+    joining_.join();
 }
 
 SessionRegistry::Created SessionRegistry::create(const std::string& id, const Settings& settings,

@@ -48,6 +48,7 @@ public:
     SessionRegistry(const Limits& limits, const BackendOptions& backend, unsigned encoding_threads,
                     std::vector<int> devices = {}, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>(),
                     Observe observe = nullptr, MakeReconstruct make = make_reconstruct);
+    /// Ends all sessions, and returns once their threads have ended.
     ~SessionRegistry();
     SessionRegistry(const SessionRegistry&) = delete;
     SessionRegistry& operator=(const SessionRegistry&) = delete;
@@ -133,9 +134,10 @@ private:
     std::map<int, std::shared_ptr<PagePinning>> pinning_;         ///< by device
     bool draining_ = false;
 
-    // Joins the threads of sessions that were removed, so that no gRPC thread has to wait for a reconstruction.
-    std::atomic<std::uint32_t> ending_{0};  ///< sessions that were removed, and whose threads may run still
-    Channel<std::shared_ptr<Session>> removed_;
+    // Joins the threads of sessions that were removed, so that no gRPC thread has to wait for a reconstruction, and
+    // that none of those threads, which wake streams that know the session, has the last reference.
+    std::atomic<std::uint32_t> ending_{0};       ///< sessions that were removed, and whose threads may run still
+    Channel<std::shared_ptr<Session>> removed_;  ///< none: no other follows
     std::thread joining_;
     std::atomic<bool> sessions_have_ended_{false};  ///< since free pages were returned
 

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <semaphore>
 #include <thread>
 #include <vector>
@@ -90,6 +91,32 @@ TEST_F(Registry, FreesTheMemoryOfADeletedSessionThatACallStillHolds) {
     EXPECT_GT(registry.reconstruction_bytes(), 0U);
     registry.remove(session);
     while (registry.reconstruction_bytes() != 0) std::this_thread::yield();
+}
+
+TEST(EndedRegistry, HasEndedTheThreadsOfItsSessionsThoughCallsHoldThem) {
+    struct Ending : SessionObserver {
+        const char* product() const noexcept override { return "nothing"; }
+        void reconstructed(const InputFrame& /*frame*/) noexcept override {}
+        void encoded(std::shared_ptr<const EncodedFrame> /*frame*/) noexcept override {}
+        void ended() noexcept override { has_ended = true; }
+        std::atomic<bool> has_ended{false};
+    };
+    std::vector<std::shared_ptr<Ending>> endings;
+    const auto observe = [&](const SessionIdentity& /*identity*/, const Settings& /*settings*/) {
+        endings.push_back(std::make_shared<Ending>());
+        return SessionObservers{endings.back()};
+    };
+    std::optional<SessionRegistry> registry(std::in_place, Limits{},
+                                            BackendOptions{.backend = Backend::cpu, .threads = 1}, 1,
+                                            std::vector<int>{}, std::make_shared<Metrics>(), observe);
+    std::vector<std::shared_ptr<Session>> held;
+    for (const char* id : {first_id, second_id, third_id})
+        held.push_back(registry->create(id, test::settings()).session);
+    registry->remove(held[0]);
+    held[1]->close();
+    registry.reset();
+    for (const auto& ending : endings) EXPECT_TRUE(ending->has_ended);
+    for (const auto& session : held) EXPECT_TRUE(session->ended());
 }
 
 TEST_F(Registry, TakesNoSessionsWhileItDrains) {
