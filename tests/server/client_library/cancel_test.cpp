@@ -185,12 +185,12 @@ TEST(TryPush, TakesNothingWherePushWouldWait) {
     EXPECT_FALSE(stream.try_push(particles.view(), 1, 0.0));
     client::ParticleBuffer buffer(std::vector<float>(particles.positions));
     EXPECT_FALSE(stream.try_push(std::move(buffer), 1, 0.0));
-    ASSERT_FALSE(buffer.is_taken());
+    ASSERT_FALSE(buffer.is_taken());  // NOLINT(bugprone-use-after-move): it was not taken
     EXPECT_FALSE(stream.try_push(StridedPositions(particles.positions), 1, 0.0));
     ASSERT_TRUE(stream.next());
     // The index is free, and the buffer as it was.
     EXPECT_TRUE(stream.try_push(std::move(buffer), 1, 0.0));
-    EXPECT_TRUE(buffer.is_taken());
+    EXPECT_TRUE(buffer.is_taken());  // NOLINT(bugprone-use-after-move): what was moved from says so
     EXPECT_EQ(mesh_sha256(stream.next()->mesh()), local_sha256(particles));
     stream.finish();
     EXPECT_THROW(stream.try_push(particles.view(), 2, 0.0), InvalidInput);

@@ -153,7 +153,7 @@ TEST_F(PushedPositions, AreRefusedOutOfABufferThatWasPushedBefore) {
     std::copy(particles.positions.begin(), particles.positions.end(), buffer.positions().begin());
     stream.push(std::move(buffer), 0, 0.0);
     EXPECT_EQ(next_hash(), expected);
-    EXPECT_TRUE(buffer.is_taken());
+    EXPECT_TRUE(buffer.is_taken());  // NOLINT(bugprone-use-after-move): what was moved from says so
     EXPECT_TRUE(buffer.positions().empty());
     EXPECT_NE(refusal(std::move(buffer), 1U, 0.0).find("was pushed or moved from before"), std::string::npos);
 }

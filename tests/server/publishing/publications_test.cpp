@@ -40,6 +40,7 @@ struct Published {
 TEST(Publications, StayWithinTheirMemoryByWhatTheLargestLose) {
     Published published;
     std::vector<std::shared_ptr<SessionObserver>> sessions;
+    sessions.reserve(3);
     for (int i = 0; i < 3; ++i) sessions.push_back(published.all.observe(identity(i), settings()));
     for (std::uint64_t frame = 0; frame < 3; ++frame) sessions[0]->encoded(large_frame(frame));
     for (std::uint64_t frame = 0; frame < 40; ++frame) sessions[1]->encoded(large_frame(frame));
@@ -57,6 +58,7 @@ TEST(Publications, StayWithinTheirMemoryByWhatTheLargestLose) {
 TEST(Publications, OfEndedSessionsMakeRoomFirst) {
     Published published;
     std::vector<std::shared_ptr<SessionObserver>> sessions;
+    sessions.reserve(3);
     for (int i = 0; i < 3; ++i) sessions.push_back(published.all.observe(identity(i), settings()));
     for (std::uint64_t frame = 0; frame < 3; ++frame)
         for (const auto& session : sessions) session->encoded(large_frame(frame));
@@ -170,6 +172,7 @@ TEST(Publications, GoOnWithASessionOfTheSameOwnerAndSettingsAlone) {
 TEST(Publications, AreForgottenSomeTimeAfterTheirSessionsAndTheLongestEndedFirst) {
     Published published;
     std::vector<std::shared_ptr<SessionObserver>> sessions;
+    sessions.reserve(6);
     for (int i = 0; i < 6; ++i) sessions.push_back(published.all.observe(identity(i), settings()));
     for (int i = 0; i < 5; ++i) sessions[static_cast<std::size_t>(i)]->ended();
     published.all.tidy(Clock::now());

@@ -83,7 +83,7 @@ TEST(Attributes, ThatChangeWhereTheSurfaceRestsReachAWatcherByDifference) {
     auto watcher = running.client.watch(id, options);
     auto stream = running.client.stream(id, asking_for({}));
     for (std::uint64_t frame = 0; frame < 3; ++frame) {
-        const ParticlesWithArrays particles(wave(10, 0.0), static_cast<double>(frame / 2));
+        const ParticlesWithArrays particles(wave(10, 0.0), frame == 2 ? 1.0 : 0.0);
         stream.push(particles.view(), frame, 0.0);
         ASSERT_TRUE(stream.next());
         const auto received = watcher.next();

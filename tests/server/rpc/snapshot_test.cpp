@@ -94,6 +94,7 @@ TEST(Snapshot, OfASessionThatIsDeletedMeanwhileIsWholeOrNotFound) {
         const std::string id = running.session();
         play(running, id, wave(6, 0.0), 0);
         std::vector<std::thread> viewers;
+        viewers.reserve(4);
         for (int i = 0; i < 4; ++i)
             viewers.emplace_back([&, i] {
                 client::Client client(running.server.address());

@@ -109,6 +109,7 @@ TEST_F(UploadLimits, LargeFramesOfTwoSessionsBothArrive) {
     RunningServer running(options);
     std::vector<std::thread> senders;
     std::array<grpc::Status, 4> ends;
+    senders.reserve(ends.size());
     for (grpc::Status& end : ends)
         senders.emplace_back([&, id = running.session()] {
             RawStream stream(running.server.address(), id);

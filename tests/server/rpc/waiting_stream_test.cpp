@@ -38,6 +38,7 @@ void cancel_an_opening(RunningServer& running, const std::string& id) {
     waiting.context.TryCancel();
     // Time in which the call would end, if it could. The held thread is one of gRPC's: for other calls it adds threads.
     std::vector<std::future<void>> others;
+    others.reserve(16);
     for (int i = 0; i < 16; ++i)
         others.push_back(std::async(std::launch::async, [&] { ask_about(id, waiting.connection); }));
     std::this_thread::sleep_for(200ms);

@@ -228,7 +228,7 @@ TEST_F(TokensOnAServer, HaveSharesThatLeaveRoomForOthers) {
         }
     };
     const auto create = [&](client::Client& client) {
-        const std::string session = client::new_session_id();
+        std::string session = client::new_session_id();
         client.create_session(session, settings());
         return session;
     };

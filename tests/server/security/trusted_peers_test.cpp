@@ -121,7 +121,7 @@ TEST(TrustedPeers, RefuseWhatIsNoAddressByItsName) {
     for (const char* wrong : {"", "localhost", "192.0.2.7:80", "192.0.2.0/33", "10.0.0.0/", "10.0.0.0/8x", "::/129",
                               "300.0.0.1", "10.0.0.0/-1"}) {
         try {
-            TrustedPeers({wrong});
+            const TrustedPeers refused({wrong});
             ADD_FAILURE() << wrong;
         } catch (const InvalidInput& error) {
             EXPECT_NE(std::string(error.what()).find(wrong), std::string::npos) << error.what();

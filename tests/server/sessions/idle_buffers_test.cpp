@@ -184,6 +184,7 @@ TEST(IdleBuffers, OfLargeSessionsMakeRoomForSmallOnes) {
     }
     SessionRegistry registry{Limits{.sessions = 16, .total_bytes = 2 * bytes_of_large}, cpu, 1};
     std::vector<std::shared_ptr<Session>> sessions;
+    sessions.reserve(16);
     for (int i = 0; i < 16; ++i) sessions.push_back(registry.create(session_id(i), test::settings()).session);
     for (std::uint64_t frame = 0; frame < 3; ++frame)
         for (std::size_t i = 0; i < sessions.size(); ++i) {

@@ -27,6 +27,7 @@ std::size_t particles_in(std::uint64_t index, std::uint32_t part) {
 
 std::vector<SentFrame> frames_of(std::uint32_t part, const std::vector<std::uint64_t>& indices) {
     std::vector<SentFrame> frames;
+    frames.reserve(indices.size());
     for (const std::uint64_t index : indices)
         frames.push_back({.index = index, .particles = particles_in(index, part)});
     return frames;
@@ -95,6 +96,7 @@ struct Parts : testing::Test {
     }
     static void play(const std::vector<std::shared_ptr<PartPlayer>>& players) {
         std::vector<std::thread> threads;
+        threads.reserve(players.size());
         for (const auto& each : players)
             threads.emplace_back([each] {
                 each->play(0);
@@ -210,14 +212,14 @@ TEST_F(Parts, EndTogetherWhereOneBreaksOff) {
     waits.join();
     EXPECT_EQ(text_of(other->error),
               "part 1 of 3 has broken off: the frames without an answer are dropped for all parts");
+    EXPECT_TRUE(other->answers.empty());
+    EXPECT_FALSE(checked.session->state().uploading);
+    EXPECT_TRUE(third->play(0) == PartPlayer::Outcome::ended);
     try {
         std::rethrow_exception(other->error);
     } catch (const Refusal& refusal) {
         EXPECT_EQ(refusal.kind(), Refusal::Kind::aborted) << "clients that reconnect come again";
     }
-    EXPECT_TRUE(other->answers.empty());
-    EXPECT_FALSE(checked.session->state().uploading);
-    EXPECT_TRUE(third->play(0) == PartPlayer::Outcome::ended);
 }
 
 TEST_F(Parts, GiveWayToOneThatComesAgainBeforeItsBreakIsNoticed) {
@@ -263,6 +265,7 @@ TEST_F(Parts, ThatDoNotComeEndTheOthersInTheTimeOfOrphans) {
 TEST_F(Parts, ThatComputeAreNotIdleWhileOthersWaitForThem) {
     const std::vector players{opened(0, {1}), opened(1, {1})};
     std::vector<std::thread> waiting;
+    waiting.reserve(players.size());
     for (const auto& each : players) waiting.emplace_back([each] { each->play(0); });
     const auto computes = opened(2, {1});
     while (!players[0]->upload().waits_for_parts) std::this_thread::yield();

@@ -27,7 +27,8 @@ std::function<grpc::Status(RunningServer&)> read(std::string metadata,
 }
 
 /// Deletes with this metadata.
-std::function<grpc::Status(RunningServer&)> deletion(std::string metadata, std::string session, std::uint32_t number) {
+std::function<grpc::Status(RunningServer&)> deletion(const std::string& metadata, const std::string& session,
+                                                     std::uint32_t number) {
     return [=](RunningServer& running) {
         const client::Connection connection = connect(running);
         grpc::ClientContext context;

@@ -67,7 +67,7 @@ std::function<grpc::Status(RunningServer&)> id(std::string in_message) {
 }
 
 /// A unary call with these bytes for its request.
-std::function<grpc::Status(RunningServer&)> bytes_to(const char* method, std::string bytes) {
+std::function<grpc::Status(RunningServer&)> bytes_to(const char* method, const std::string& bytes) {
     return [=](RunningServer& running) {
         const client::Connection connection = connect(running);
         grpc::ClientContext context;
