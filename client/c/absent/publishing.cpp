@@ -7,16 +7,17 @@
 #include "../src/mesh.hpp"
 #include "../src/options.hpp"
 #include "../src/result.hpp"
-#include "brick_bytes.hpp"
 #include "meniscus/client/surface_part.hpp"
 #include "meniscus/meniscus.h"
-#include "pushed_upload.hpp"
+#include "pushing/brick_bytes.hpp"
+#include "through_push.hpp"
 
 using namespace meniscus::c;
+using namespace meniscus::pushing;
 
 struct meniscus_publisher {
     meniscus_publisher(const meniscus_client& client, const PublishArguments& arguments)
-        : form(arguments.form), upload(client, arguments.push, bricks_beginning()) {}
+        : form(arguments.form), upload(client.program, arguments.push, bricks_beginning()) {}
 
     PublishedForm form;
     PushedUpload upload;
@@ -88,7 +89,7 @@ meniscus_result meniscus_publisher_finish(meniscus_publisher* publisher) {
 }
 
 meniscus_result meniscus_publisher_next(meniscus_publisher* publisher, double timeout_seconds, meniscus_frame** frame) {
-    return guarded([&] { return required(publisher, "publisher").upload.next(timeout_seconds, frame); });
+    return guarded([&] { return next_answer(required(publisher, "publisher").upload, timeout_seconds, frame); });
 }
 
 meniscus_result meniscus_publisher_cancel(meniscus_publisher* publisher) {

@@ -7,17 +7,18 @@
 #include "../src/options.hpp"
 #include "../src/particles.hpp"
 #include "../src/result.hpp"
-#include "frame_bytes.hpp"
 #include "meniscus/meniscus.h"
-#include "push_options.hpp"
-#include "push_process.hpp"
-#include "pushed_upload.hpp"
+#include "pushing/frame_bytes.hpp"
+#include "pushing/push_options.hpp"
+#include "pushing/push_process.hpp"
+#include "through_push.hpp"
 
 using namespace meniscus::c;
+using namespace meniscus::pushing;
 
 struct meniscus_session {
     meniscus_session(const meniscus_client& client, const PushArguments& arguments)
-        : settings(arguments.settings), upload(client, arguments, recording_beginning()) {}
+        : settings(arguments.settings), upload(client.program, arguments, recording_beginning()) {}
 
     meniscus::Settings settings;
     PushedUpload upload;
@@ -120,7 +121,7 @@ meniscus_result meniscus_session_finish(meniscus_session* session) {
 }
 
 meniscus_result meniscus_session_next(meniscus_session* session, double timeout_seconds, meniscus_frame** frame) {
-    return guarded([&] { return required(session, "session").upload.next(timeout_seconds, frame); });
+    return guarded([&] { return next_answer(required(session, "session").upload, timeout_seconds, frame); });
 }
 
 meniscus_result meniscus_session_cancel(meniscus_session* session) {

@@ -14,7 +14,6 @@ void bind_service(py::module_& module) {
         });
     };
     absent("connect", "a server's client");
-    absent("make_parts", "publishing parts of frames");
     absent("read_bricks", "reading .bricks");
     absent("open_recording_file", "reading recordings");
     for (const char* function : {"open_publication", "make_publication_writer", "write_site", "single_page"})

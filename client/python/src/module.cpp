@@ -30,6 +30,7 @@ PYBIND11_MODULE(_meniscus, module) {
     bind_mesh(module);
     bind_device_mesh(module);
     bind_reconstructor(module);
+    bind_parts(module);
     bind_service(module);
     forbid_bare_objects(module);
 }

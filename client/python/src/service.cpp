@@ -8,7 +8,6 @@ void bind_service(pybind11::module_& module) {
     bind_reconnect_handlers(module);
     bind_stream(module);
     bind_publisher(module);
-    bind_parts(module);
     bind_watcher(module);
     bind_recording(module);
     bind_recording_file(module);

@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "../../../client/c/absent/statistics_message.hpp"
 #include "conversion/statistics_conversion.hpp"
 #include "files/brick_file_format.hpp"
 #include "formats/bytes/atomic_file.hpp"
@@ -26,6 +25,7 @@
 #include "meniscus/v1/surface_service.pb.h"
 #include "own_surfaces.hpp"
 #include "push_fixture.hpp"
+#include "pushing/statistics_message.hpp"
 
 namespace meniscus::test {
 namespace {
@@ -103,9 +103,9 @@ TEST_F(BricksStreamed, AreTheFramesThatWereWrittenHoweverTheyAreCut) {
     frames[3].bricks.clear();
     frames[3].statistics.triangles = 0;
     // Two in the first file, one each in the others.
-    const std::string bytes = c::bricks_beginning() + bytes_of(frames[0]) + bytes_of(frames[1]) +
-                              c::bricks_beginning() + bytes_of(frames[2]) + c::bricks_beginning() +
-                              c::bricks_beginning() + bytes_of(frames[3]);
+    const std::string bytes = pushing::bricks_beginning() + bytes_of(frames[0]) + bytes_of(frames[1]) +
+                              pushing::bricks_beginning() + bytes_of(frames[2]) + pushing::bricks_beginning() +
+                              pushing::bricks_beginning() + bytes_of(frames[3]);
     for (const std::size_t piece : {1U, 7U, 4096U}) {
         const Read result = read_piecewise(bytes, piece);
         EXPECT_EQ(result.refusal, "");
@@ -128,8 +128,8 @@ TEST_F(BricksStreamed, AreTheFramesThatWereWrittenHoweverTheyAreCut) {
 }
 
 TEST_F(BricksStreamed, OfFilesThatBeginAgainGoOnWithTheNextIndices) {
-    const std::string file = c::bricks_beginning() + bytes_of(frame_of(0)) + bytes_of(frame_of(4));
-    const Read result = read(file + file + c::bricks_beginning() + bytes_of(frame_of(20)) + file);
+    const std::string file = pushing::bricks_beginning() + bytes_of(frame_of(0)) + bytes_of(frame_of(4));
+    const Read result = read(file + file + pushing::bricks_beginning() + bytes_of(frame_of(20)) + file);
     EXPECT_EQ(result.refusal, "");
     std::vector<std::uint64_t> indices;
     for (const client::ReceivedFrame& frame : result.frames) indices.push_back(frame.index);
@@ -137,7 +137,7 @@ TEST_F(BricksStreamed, OfFilesThatBeginAgainGoOnWithTheNextIndices) {
     constexpr std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
     client::ReceivedFrame at_last = frame_of(3);
     at_last.index = last;
-    EXPECT_NE(read(c::bricks_beginning() + bytes_of(at_last) + file).refusal.find("indices must rise"),
+    EXPECT_NE(read(pushing::bricks_beginning() + bytes_of(at_last) + file).refusal.find("indices must rise"),
               std::string::npos);
 }
 
@@ -148,7 +148,7 @@ TEST_F(BricksStreamed, AreThoseThatFilesHave) {
     EXPECT_EQ(result.refusal, "");
     ASSERT_EQ(result.frames.size(), 1U);
     EXPECT_EQ(mesh_sha256(result.frames[0].mesh()), mesh_sha256(frame.mesh()));
-    const client::ReceivedFrame by_hand = formats::read_bricks("bricks", c::bricks_beginning() + bytes_of(frame));
+    const client::ReceivedFrame by_hand = formats::read_bricks("bricks", pushing::bricks_beginning() + bytes_of(frame));
     EXPECT_EQ(mesh_sha256(by_hand.mesh()), mesh_sha256(frame.mesh()));
     ASSERT_EQ(by_hand.attributes.size(), 2U);
     for (std::size_t a = 0; a < 2; ++a) EXPECT_EQ(by_hand.attributes[a].range, frame.attributes[a].range);
@@ -172,12 +172,12 @@ TEST_F(BricksStreamed, HaveTheFieldsOfEachFigure) {
     v1::FrameStatistics expected;
     conversion::to_wire(statistics, expected);
     v1::FrameStatistics is;
-    ASSERT_TRUE(is.ParseFromString(c::statistics_message(statistics).bytes()));
+    ASSERT_TRUE(is.ParseFromString(pushing::statistics_message(statistics).bytes()));
     EXPECT_EQ(is.DebugString(), expected.DebugString());
 }
 
 TEST_F(BricksStreamed, GiveTheFramesBeforeACutAndSayWhereThatIs) {
-    const std::string before = c::bricks_beginning() + bytes_of(frame_of(4));
+    const std::string before = pushing::bricks_beginning() + bytes_of(frame_of(4));
     const std::string last = bytes_of(frame_of(5));
     for (std::size_t size = 1; size < last.size(); size += size < 64 || last.size() - size < 64 ? 1 : 37) {
         const Read result = read(before + last.substr(0, size));
@@ -189,12 +189,12 @@ TEST_F(BricksStreamed, GiveTheFramesBeforeACutAndSayWhereThatIs) {
     EXPECT_NE(read((before + last).substr(0, before.size() + last.size() - 1)).refusal.find("within frame 5"),
               std::string::npos);
     EXPECT_EQ(read(before).refusal, "");
-    for (std::size_t size = 1; size < c::bricks_beginning().size(); ++size)
-        EXPECT_NE(read(before + c::bricks_beginning().substr(0, size)).refusal, "") << size;
+    for (std::size_t size = 1; size < pushing::bricks_beginning().size(); ++size)
+        EXPECT_NE(read(before + pushing::bricks_beginning().substr(0, size)).refusal, "") << size;
 }
 
 TEST_F(BricksStreamed, AreRefusedWithFrameAndByte) {
-    const std::string first = c::bricks_beginning() + bytes_of(frame_of(5));
+    const std::string first = pushing::bricks_beginning() + bytes_of(frame_of(5));
     const std::string place = "at byte " + std::to_string(first.size()) + ": ";
     v1::BrickFileBegin of_version_3;
     of_version_3.set_version(3);
@@ -219,12 +219,13 @@ TEST_F(BricksStreamed, AreRefusedWithFrameAndByte) {
         {std::string(files::brick_file_magic), "it ends at byte 16, within an entry"},
         {std::string(files::brick_file_magic) + delimited(of_version_3), "version 3; this program reads version 2"},
         {std::string(files::brick_file_magic) + std::string("\x02\xff\xff", 3), "no beginning of a file of bricks"},
-        {first + c::recording_beginning(), place + "a recording behind bricks"},
+        {first + pushing::recording_beginning(), place + "a recording behind bricks"},
         {first + bytes_of(frame_of(5)), place + "frame 5 after frame 5; indices must rise"},
         {first + delimited(brick), place + "the server sent a brick outside of a frame"},
         {first + delimited(statistics), place + "the server sent statistics of frame 6 without its mesh"},
         {first + delimited(begin) + delimited(begin), "frame 6 begins before frame 6 has ended"},
-        {first + delimited(begin) + c::bricks_beginning() + bytes_of(frame_of(7)), "no message of a frame of bricks"},
+        {first + delimited(begin) + pushing::bricks_beginning() + bytes_of(frame_of(7)),
+         "no message of a frame of bricks"},
         {first + delimited(begin) + delimited(of_other_triangles), "its statistics say 1"},
         {first + delimited(begin) + delimited(brick), "is one more than the 0 that were announced"},
         {first + delimited(difference), "is a difference to frame 5, which was not asked for"},
@@ -241,7 +242,7 @@ TEST_F(BricksStreamed, AreRefusedWithFrameAndByte) {
 }
 
 TEST_F(BricksStreamed, TakeNoMoreMemoryThanIsAllowed) {
-    const std::string bytes = c::bricks_beginning() + bytes_of(frame_of(5, 4));
+    const std::string bytes = pushing::bricks_beginning() + bytes_of(frame_of(5, 4));
     EXPECT_NE(
         read(bytes, {.most_bytes = 1000}).refusal.find("frame 5 has more than 1000 bytes, the most that are read"),
         std::string::npos);
@@ -249,7 +250,7 @@ TEST_F(BricksStreamed, TakeNoMoreMemoryThanIsAllowed) {
 }
 
 TEST_F(BricksStreamed, EndWhenTheyAreStoppedThoughTheirPipeGoesOn) {
-    const std::string bytes = c::bricks_beginning() + bytes_of(frame_of(0));
+    const std::string bytes = pushing::bricks_beginning() + bytes_of(frame_of(0));
     const int both = ::open(pipe_.c_str(), O_RDWR | O_CLOEXEC);
     ASSERT_EQ(::write(both, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
     formats::InputPipe pipe(pipe_);

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "../../../client/c/absent/brick_bytes.hpp"
 #include "meniscus/attribute_coding.hpp"
 #include "meniscus/client/client.hpp"
 #include "meniscus/reconstructor.hpp"
+#include "pushing/brick_bytes.hpp"
 
 namespace meniscus::test {
 
@@ -26,7 +26,7 @@ inline client::ReceivedFrame surface_of(const Settings& settings, const Particle
 /// As a program writes it that has no Protocol Buffers.
 inline std::string bytes_of(const client::ReceivedFrame& frame) {
     std::string out;
-    for (const c::FramePiece& piece : c::brick_pieces(frame))
+    for (const pushing::FramePiece& piece : pushing::brick_pieces(frame))
         out.append(piece.head).append(reinterpret_cast<const char*>(piece.data.data()), piece.data.size());
     return out;
 }

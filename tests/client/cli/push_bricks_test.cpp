@@ -39,7 +39,7 @@ TEST_F(PushBricks, GivesTheMeshesAttributesAndFiguresOfADirectPublication) {
         client::Publisher publisher = client_.publish(direct);
         publisher.push(frame);
         ASSERT_TRUE(publisher.next());
-        const ProcessResult result = push(c::bricks_beginning() + bytes_of(frame), flags());
+        const ProcessResult result = push(pushing::bricks_beginning() + bytes_of(frame), flags());
         ASSERT_EQ(result.exit_code, 0) << result.err;
         const client::ReceivedFrame there = shown(direct);
         const client::ReceivedFrame here = shown(id_);
@@ -66,7 +66,7 @@ TEST_F(PushBricks, NumbersTheFilesOfASequence) {
     std::string files;
     for (const unsigned side : {3U, 5U}) {
         const Block block(side);
-        files += c::bricks_beginning() + bytes_of(surface_of(settings_, block.frame(), 0));
+        files += pushing::bricks_beginning() + bytes_of(surface_of(settings_, block.frame(), 0));
     }
     const ProcessResult result = push(files, flags());
     ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -96,7 +96,7 @@ TEST_F(PushBricks, OfOneFrameComeFromSeveralProcesses) {
             part.statistics.triangles += whole.bricks[b]->triangles;
         }
         const std::string file = (directory_ / ("part" + std::to_string(p))).string();
-        formats::write_file(file, c::bricks_beginning() + bytes_of(part));
+        formats::write_file(file, pushing::bricks_beginning() + bytes_of(part));
         std::vector<std::string> words =
             flags({"--parts", std::to_string(parts), "--part", std::to_string(p), "--run", "99"});
         words.insert(words.begin(), {"push", file, "--server", server_.address(), "--answers", "-"});
@@ -124,8 +124,8 @@ TEST_F(PushBricks, OfParticlesComeFromSeveralProcessesToo) {
     none.positions.clear();
     none.arrays.clear();
     const auto pieces_of = [](const ParticleFrame& frame) {
-        std::string out = c::recording_beginning();
-        for (const c::FramePiece& piece : c::frame_pieces(frame, 3, 0.0))
+        std::string out = pushing::recording_beginning();
+        for (const pushing::FramePiece& piece : pushing::frame_pieces(frame, 3, 0.0))
             out.append(piece.head).append(reinterpret_cast<const char*>(piece.data.data()), piece.data.size());
         return out;
     };
@@ -147,12 +147,12 @@ TEST_F(PushBricks, OfParticlesComeFromSeveralProcessesToo) {
 
 TEST_F(PushBricks, AnswersTheFramesBeforeABrokenOneAndThenSaysWhatIsWrong) {
     const Block block(3);
-    const std::string whole = c::bricks_beginning() + bytes_of(surface_of(settings_, block.frame(), 0));
+    const std::string whole = pushing::bricks_beginning() + bytes_of(surface_of(settings_, block.frame(), 0));
     const std::string cut = whole + bytes_of(surface_of(settings_, block.frame(), 1)).substr(0, 300);
     for (const auto& [bytes, words] : std::vector<std::pair<std::string, std::string>>{
              {cut,
               "it ends at byte " + std::to_string(cut.size()) + ", within frame 1: whatever writes it ended early"},
-             {whole + c::recording_beginning(), "a recording behind bricks"}}) {
+             {whole + pushing::recording_beginning(), "a recording behind bricks"}}) {
         const ProcessResult result = push(bytes, flags());
         EXPECT_EQ(result.exit_code, 2);
         const auto lines = lines_of(result);
@@ -168,12 +168,12 @@ TEST_F(PushBricks, AnswersTheFramesBeforeABrokenOneAndThenSaysWhatIsWrong) {
 
 TEST_F(PushBricks, SaysWhyTheServerRefusesThem) {
     const Block block(3);
-    const ProcessResult coarse = push(c::bricks_beginning() + bytes_of(surface_of(settings_, block.frame(), 0)),
+    const ProcessResult coarse = push(pushing::bricks_beginning() + bytes_of(surface_of(settings_, block.frame(), 0)),
                                       {"-r", "0.1", "--cell-size", "1", "--attribute", "all", "-q"});
     EXPECT_EQ(coarse.exit_code, 2);
     EXPECT_NE(coarse.err.find("frame 0: cell_size is 0.05, and 0.1 with the session's settings"), std::string::npos)
         << coarse.err;
-    const ProcessResult none = push(c::bricks_beginning() + bytes_of(surface_of(settings_, block.frame(), 0)));
+    const ProcessResult none = push(pushing::bricks_beginning() + bytes_of(surface_of(settings_, block.frame(), 0)));
     EXPECT_EQ(none.exit_code, 2);
     EXPECT_NE(none.err.find("its beginning has no settings: give --particle-radius"), std::string::npos) << none.err;
 }
@@ -181,7 +181,7 @@ TEST_F(PushBricks, SaysWhyTheServerRefusesThem) {
 TEST_F(PushBricks, SaysThatThereIsNoServer) {
     const Block block(2);
     const std::string file = (directory_ / "bricks").string();
-    formats::write_file(file, c::bricks_beginning() + bytes_of(surface_of(settings_, block.frame(), 0)));
+    formats::write_file(file, pushing::bricks_beginning() + bytes_of(surface_of(settings_, block.frame(), 0)));
     const ProcessResult result = run_process(
         MENISCUS_CLI, {"push", file, "--server", "unix:/nowhere/meniscus", "-r", "0.1", "-q", "--answers", "-"});
     EXPECT_EQ(result.exit_code, 2);

@@ -6,17 +6,18 @@
 #include <string>
 #include <thread>
 
-#include "../../../client/c/absent/frame_bytes.hpp"
 #include "formats/bytes/byte_cursor.hpp"
 #include "meniscus/mesh_hash.hpp"
 #include "push_fixture.hpp"
+#include "pushing/frame_bytes.hpp"
 
 namespace meniscus::test {
 namespace {
 
 std::string bytes_of(const Block& block, std::uint64_t index) {
     std::string out;
-    for (const c::FramePiece& piece : c::frame_pieces(block.frame(), index, 0.5 * static_cast<double>(index)))
+    for (const pushing::FramePiece& piece :
+         pushing::frame_pieces(block.frame(), index, 0.5 * static_cast<double>(index)))
         out.append(piece.head).append(reinterpret_cast<const char*>(piece.data.data()), piece.data.size());
     return out;
 }
@@ -35,7 +36,7 @@ TEST_F(Push, GivesTheMeshesAndAttributesOfTheSameFramesUploaded) {
         const std::string pushed = client::new_session_id();
         client_.create_session(pushed, settings_);
         const ProcessResult result =
-            push(c::recording_beginning() + bytes_of(block, 7),
+            push(pushing::recording_beginning() + bytes_of(block, 7),
                  {"--session", pushed, "-r", "0.1", "--attribute", "id", "--attribute", "speed"});
         ASSERT_EQ(result.exit_code, 0) << result.err;
         const client::SnapshotOptions all{.attributes = {{.name = {}, .bits = 0}}};
@@ -53,7 +54,7 @@ TEST_F(Push, GivesTheMeshesAndAttributesOfTheSameFramesUploaded) {
 
 TEST_F(Push, AnswersEachFrameByALineOfJson) {
     const ProcessResult result =
-        push(c::recording_beginning() + bytes_of(Block(3), 2) + bytes_of(Block(4), 9), {"-r", "0.1", "-q"});
+        push(pushing::recording_beginning() + bytes_of(Block(3), 2) + bytes_of(Block(4), 9), {"-r", "0.1", "-q"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.err, "");
     const auto lines = lines_of(result);
@@ -68,7 +69,7 @@ TEST_F(Push, AnswersEachFrameByALineOfJson) {
 }
 
 TEST_F(Push, AnswersTheFramesBeforeABrokenOneAndThenSaysWhatIsWrong) {
-    const std::string whole = c::recording_beginning() + bytes_of(Block(3), 0) + bytes_of(Block(3), 1);
+    const std::string whole = pushing::recording_beginning() + bytes_of(Block(3), 0) + bytes_of(Block(3), 1);
     const std::string cut = whole + bytes_of(Block(3), 2).substr(0, 100);
     const ProcessResult result = push(cut, {"-r", "0.1", "-q"});
     EXPECT_EQ(result.exit_code, 2);
@@ -110,7 +111,7 @@ TEST_F(Push, RefusesARecordedFrameThatCameAsFinishedBricks) {
 }
 
 TEST_F(Push, TakesSettingsFromTheFlagsOrFromTheRecordingAndNeverFromBoth) {
-    const std::string bytes = c::recording_beginning() + bytes_of(Block(2), 0);
+    const std::string bytes = pushing::recording_beginning() + bytes_of(Block(2), 0);
     const ProcessResult none = push(bytes);
     EXPECT_EQ(none.exit_code, 2);
     EXPECT_NE(none.err.find("its beginning has no settings: give --particle-radius"), std::string::npos) << none.err;
@@ -123,7 +124,7 @@ TEST_F(Push, EndsWithItsSessionThoughItsPipeGoesOn) {
     const std::string pipe = (directory_ / "pipe").string();
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     const int both = ::open(pipe.c_str(), O_RDWR | O_CLOEXEC);
-    const std::string bytes = c::recording_beginning() + bytes_of(Block(2), 0);
+    const std::string bytes = pushing::recording_beginning() + bytes_of(Block(2), 0);
     ASSERT_EQ(::write(both, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
     const std::string id = client::new_session_id();
     client_.create_session(id, settings_);

@@ -91,6 +91,7 @@ def test_files_take_the_place_of_a_server(tmp_path):
         mpi.Parts(mpi.MPI.COMM_SELF, particle_radius)
 
 
+@pytest.mark.usefixtures("server")  # a build without the service asks for the program that speaks to it first
 def test_a_server_that_is_not_there_and_wrong_options_are_told_by_all_ranks():
     mpi = pytest.importorskip("meniscus.mpi")
     with pytest.raises(meniscus.ServerError, match="rank 0: .*unix:/nowhere"):

@@ -26,6 +26,15 @@ def test_what_needs_it_says_how_the_package_was_built(call, tmp_path, monkeypatc
         call()
 
 
+def test_parts_go_to_a_session_by_a_program_of_another_build(tmp_path, monkeypatch):
+    pytest.importorskip("mpi4py")
+    mpi = pytest.importorskip("meniscus.mpi")
+    monkeypatch.delenv("MENISCUS_PROGRAM", raising=False)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(meniscus.Error, match="rank 0: publishing parts of frames to a session is not in this build"):
+        mpi.Parts(mpi.MPI.COMM_SELF, particle_radius, server="127.0.0.1:50051")
+
+
 def test_bricks_are_not_written_without_it(tmp_path):
     # What encodes them is asked first, and may be missing, too.
     with pytest.raises(

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "meniscus/error.hpp"
-#include "values/keywords.hpp"
 
 namespace meniscus::python {
 
@@ -17,11 +16,6 @@ std::uint64_t RisingIndex::next(std::optional<std::uint64_t> given) const {
         throw InvalidInput("index is " + std::to_string(*given) + ", must be at least " + std::to_string(least) +
                            ": it rises from frame to frame");
     return given.value_or(least);
-}
-
-std::optional<std::uint64_t> index_of(const pybind11::object& given) {
-    if (given.is_none()) return std::nullopt;
-    return whole_number(given, "index", std::numeric_limits<std::uint64_t>::max());
 }
 
 }  // namespace meniscus::python

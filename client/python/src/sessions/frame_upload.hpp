@@ -22,9 +22,6 @@ private:
     std::optional<std::uint64_t> last_;
 };
 
-/// None: no index is given. Throws InvalidInput for what is no whole number.
-std::optional<std::uint64_t> index_of(const pybind11::object& given);
-
 /// Upload: a Stream or a Publisher.
 template <class Upload>
 class FrameUpload : public FrameSource<Upload> {

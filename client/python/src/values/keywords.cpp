@@ -1,6 +1,7 @@
 #include "values/keywords.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "meniscus/error.hpp"
 
@@ -35,6 +36,11 @@ std::uint64_t whole_number(const py::object& given, const std::string& name, std
     }
     throw InvalidInput(name + " is " + std::string(py::repr(given)) + ", must be a whole number from 0 to " +
                        std::to_string(largest));
+}
+
+std::optional<std::uint64_t> index_of(const py::object& given) {
+    if (given.is_none()) return std::nullopt;
+    return whole_number(given, "index", std::numeric_limits<std::uint64_t>::max());
 }
 
 }  // namespace meniscus::python

@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,5 +25,8 @@ std::string text_of(const pybind11::object& given, const std::string& name);
 
 /// A whole number from 0 to `largest`. Throws InvalidInput, with the name, for anything else.
 std::uint64_t whole_number(const pybind11::object& given, const std::string& name, std::uint64_t largest);
+
+/// Of a frame. None: no index is given. Throws likewise.
+std::optional<std::uint64_t> index_of(const pybind11::object& given);
 
 }  // namespace meniscus::python

@@ -9,7 +9,7 @@
 #include "meniscus/settings.hpp"
 #include "text_options/option_reader.hpp"
 
-namespace meniscus::c {
+namespace meniscus::pushing {
 
 /// Throws InvalidInput for an option that is wrong or not of a connection.
 void check_connection(const text_options::Options& connection);
@@ -37,4 +37,4 @@ struct PublishArguments {
 PublishArguments publish_arguments(const std::string& address, const text_options::Options& connection,
                                    const text_options::Options& session);
 
-}  // namespace meniscus::c
+}  // namespace meniscus::pushing

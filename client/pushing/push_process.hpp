@@ -18,12 +18,12 @@
 #include <thread>
 #include <vector>
 
-#include "json_line.hpp"
+#include "pushing/json_line.hpp"
 
-namespace meniscus::c {
+namespace meniscus::pushing {
 
-/// The program: MENISCUS_PROGRAM, or `meniscus` in PATH. function: that needs it. Throws NotBuilt where there is none.
-std::string push_program(const char* function);
+/// The program: MENISCUS_PROGRAM, or `meniscus` in PATH. what: needs it. Throws NotBuilt where there is none.
+std::string push_program(const char* what);
 
 /// write() and finish() belong to one thread, next() to one (other) thread, cancel() to any.
 class PushProcess {
@@ -76,4 +76,4 @@ private:
     std::thread listener_;
 };
 
-}  // namespace meniscus::c
+}  // namespace meniscus::pushing

@@ -10,14 +10,14 @@
 
 #include "bindings.hpp"
 #include "meniscus/error.hpp"
+#include "mpi/rank_exchange.hpp"
 #include "ranks/parts_job.hpp"
-#include "sessions/frame_upload.hpp"
-#include "sessions/rank_exchange.hpp"
 #include "text_options/option_reader.hpp"
 #include "threads/ending.hpp"
 #include "threads/interpreter_lock.hpp"
 #include "threads/process.hpp"
 #include "values/arrays_in.hpp"
+#include "values/keywords.hpp"
 
 namespace py = pybind11;
 

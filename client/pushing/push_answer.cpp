@@ -1,4 +1,4 @@
-#include "push_answer.hpp"
+#include "pushing/push_answer.hpp"
 
 #include <concepts>
 #include <string>
@@ -10,7 +10,7 @@
 #include "meniscus/number_text.hpp"
 #include "meniscus/quoted.hpp"
 
-namespace meniscus::c {
+namespace meniscus::pushing {
 namespace {
 
 template <class Value>
@@ -58,4 +58,4 @@ client::ReceivedFrame read_answer(const JsonLine& line) {
     return answer;
 }
 
-}  // namespace meniscus::c
+}  // namespace meniscus::pushing

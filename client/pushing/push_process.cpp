@@ -1,4 +1,4 @@
-#include "push_process.hpp"
+#include "pushing/push_process.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -20,7 +20,7 @@
 #include "meniscus/names.hpp"
 #include "meniscus/quoted.hpp"
 
-namespace meniscus::c {
+namespace meniscus::pushing {
 namespace {
 
 constexpr const char* program_variable = "MENISCUS_PROGRAM";
@@ -115,7 +115,7 @@ std::exception_ptr told_error(const JsonLine& line) {
 
 }  // namespace
 
-std::string push_program(const char* function) {
+std::string push_program(const char* what) {
     const char* const named = std::getenv(program_variable);
     if (named != nullptr && *named != '\0') {
         if (is_program(named)) return named;
@@ -128,7 +128,7 @@ std::string push_program(const char* function) {
         }
     }
     const bool is_named = named != nullptr && *named != '\0';
-    throw NotBuilt(function,
+    throw NotBuilt(what,
                    "the service: build it without -DMENISCUS_SERVICE=OFF, where gRPC is installed, or let the "
                    "program meniscus of a build with it push frames, which is neither " +
                        (is_named ? program_variable + std::string(" (") + named + ")"
@@ -276,4 +276,4 @@ void PushProcess::take_end() {
     changed_.notify_all();
 }
 
-}  // namespace meniscus::c
+}  // namespace meniscus::pushing

@@ -1,4 +1,4 @@
-#include "sessions/rank_exchange.hpp"
+#include "mpi/rank_exchange.hpp"
 
 #include <pybind11/stl.h>
 

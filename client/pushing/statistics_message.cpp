@@ -1,4 +1,4 @@
-#include "statistics_message.hpp"
+#include "pushing/statistics_message.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include "meniscus/warning.hpp"
 
-namespace meniscus::c {
+namespace meniscus::pushing {
 namespace {
 
 /// The numbers of the rows' fields: proto/meniscus/v1/mesh.proto.
@@ -77,4 +77,4 @@ Message statistics_message(const Statistics& statistics) {
     return message;
 }
 
-}  // namespace meniscus::c
+}  // namespace meniscus::pushing

@@ -1,25 +1,26 @@
 // Uploads of encoded frames in a build without the service: `meniscus push` gives them to the server.
-#include "ranks/brick_upload.hpp"
+#include "pushing/pushed_upload.hpp"
 
 #include <chrono>
-#include <utility>
 
-#include "brick_bytes.hpp"
 #include "meniscus/client/errors.hpp"
-#include "push_options.hpp"
-#include "pushed_upload.hpp"
+#include "pushing/brick_bytes.hpp"
+#include "pushing/push_options.hpp"
+#include "ranks/brick_upload.hpp"
 
-namespace meniscus::c {
+namespace meniscus::ranks {
 namespace {
 
-class PipedUpload final : public ranks::BrickUpload {
+using pushing::PushProcess;
+
+class PipedUpload final : public BrickUpload {
 public:
-    PipedUpload(const meniscus_client& client, const PushArguments& arguments)
-        : upload_(client, arguments, bricks_beginning()) {}
+    PipedUpload(const std::string& program, const pushing::PushArguments& arguments)
+        : upload_(program, arguments, pushing::bricks_beginning()) {}
 
     const std::string& session_id() const override { return upload_.session_id(); }
     void push(const client::ReceivedFrame& frame) override {
-        upload_.write(brick_pieces(frame), frame.index);
+        upload_.write(pushing::brick_pieces(frame), frame.index);
         PushProcess::Answer answer;
         do answer = upload_.process().next(std::chrono::milliseconds(0));
         while (answer.line);
@@ -34,19 +35,16 @@ public:
     void leave() noexcept override {}
 
 private:
-    PushedUpload upload_;
+    pushing::PushedUpload upload_;
 };
 
 }  // namespace
-}  // namespace meniscus::c
-
-namespace meniscus::ranks {
 
 std::unique_ptr<BrickUpload> open_brick_upload(const std::string& server, const text_options::Options& connection,
                                                const text_options::Options& session) {
-    c::check_connection(connection);
-    const meniscus_client client{c::push_program("meniscus_parts_open"), server, connection};
-    return std::make_unique<c::PipedUpload>(client, c::publish_arguments(server, connection, session).push);
+    pushing::check_connection(connection);
+    return std::make_unique<PipedUpload>(pushing::push_program("publishing parts of frames to a session"),
+                                         pushing::publish_arguments(server, connection, session).push);
 }
 
 }  // namespace meniscus::ranks

@@ -1,4 +1,4 @@
-#include "push_options.hpp"
+#include "pushing/push_options.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include "text_options/client_options.hpp"
 #include "text_options/settings_options.hpp"
 
-namespace meniscus::c {
+namespace meniscus::pushing {
 namespace {
 
 /// Of meshes, which do not come back through `meniscus push` and whose bricks are encoded here, and of what waits for
@@ -112,4 +112,4 @@ PublishArguments publish_arguments(const std::string& address, const text_option
     return out;
 }
 
-}  // namespace meniscus::c
+}  // namespace meniscus::pushing

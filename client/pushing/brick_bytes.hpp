@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "frame_bytes.hpp"
 #include "meniscus/client/received_frame.hpp"
+#include "pushing/frame_bytes.hpp"
 
-namespace meniscus::c {
+namespace meniscus::pushing {
 
 /// What a file of bricks begins with.
 std::string bricks_beginning();
@@ -16,4 +16,4 @@ std::string bricks_beginning();
 /// The bytes of a frame whose bricks are of a lattice codec, piece by piece; they borrow from the frame.
 std::vector<FramePiece> brick_pieces(const client::ReceivedFrame& frame);
 
-}  // namespace meniscus::c
+}  // namespace meniscus::pushing

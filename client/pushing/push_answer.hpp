@@ -1,13 +1,13 @@
 // The answer of `meniscus push` to one frame.
 #pragma once
 
-#include "json_line.hpp"
 #include "meniscus/client/received_frame.hpp"
+#include "pushing/json_line.hpp"
 
-namespace meniscus::c {
+namespace meniscus::pushing {
 
 /// Its number, its time and, but for the warnings, its statistics. Throws client::ServerError (data_loss) for a line
 /// that answers no frame.
 client::ReceivedFrame read_answer(const JsonLine& line);
 
-}  // namespace meniscus::c
+}  // namespace meniscus::pushing

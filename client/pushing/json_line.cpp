@@ -1,4 +1,4 @@
-#include "json_line.hpp"
+#include "pushing/json_line.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -7,7 +7,7 @@
 #include "meniscus/client/errors.hpp"
 #include "meniscus/quoted.hpp"
 
-namespace meniscus::c {
+namespace meniscus::pushing {
 namespace {
 
 constexpr unsigned deepest = 8;
@@ -126,4 +126,4 @@ JsonLine read_json_line(std::string_view line) {
     return out;
 }
 
-}  // namespace meniscus::c
+}  // namespace meniscus::pushing

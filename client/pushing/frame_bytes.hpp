@@ -11,7 +11,7 @@
 
 #include "meniscus/particle_frame.hpp"
 
-namespace meniscus::c {
+namespace meniscus::pushing {
 
 /// What a recording begins with; it leaves the settings to its reader.
 std::string recording_beginning();
@@ -25,4 +25,4 @@ struct FramePiece {
 /// The bytes of a frame of float32 positions, piece by piece; they borrow from the frame.
 std::vector<FramePiece> frame_pieces(const ParticleFrame& frame, std::uint64_t index, double simulation_time);
 
-}  // namespace meniscus::c
+}  // namespace meniscus::pushing

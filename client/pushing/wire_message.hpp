@@ -13,7 +13,7 @@
 
 #include "meniscus/element_type.hpp"
 
-namespace meniscus::c {
+namespace meniscus::pushing {
 
 static_assert(std::endian::native == std::endian::little, "numbers travel as they lie in memory");
 
@@ -93,4 +93,4 @@ inline std::uint64_t wire_type(ElementType type) {
     return 0;
 }
 
-}  // namespace meniscus::c
+}  // namespace meniscus::pushing

@@ -1,11 +1,11 @@
-#include "frame_bytes.hpp"
+#include "pushing/frame_bytes.hpp"
 
 #include <algorithm>
 
 #include "files/recording_format.hpp"
-#include "wire_message.hpp"
+#include "pushing/wire_message.hpp"
 
-namespace meniscus::c {
+namespace meniscus::pushing {
 namespace {
 
 // Numbers of fields and of enumerators: proto/meniscus/v1/recording.proto, surface_service.proto.
@@ -64,4 +64,4 @@ std::vector<FramePiece> frame_pieces(const ParticleFrame& frame, std::uint64_t i
     return pieces;
 }
 
-}  // namespace meniscus::c
+}  // namespace meniscus::pushing

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "meniscus/statistics.hpp"
-#include "wire_message.hpp"
+#include "pushing/wire_message.hpp"
 
-namespace meniscus::c {
+namespace meniscus::pushing {
 
 /// FrameStatistics (proto/meniscus/v1/mesh.proto), but for what a server measures and for the frame's index and time.
 Message statistics_message(const Statistics& statistics);
 
-}  // namespace meniscus::c
+}  // namespace meniscus::pushing

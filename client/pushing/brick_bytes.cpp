@@ -1,4 +1,4 @@
-#include "brick_bytes.hpp"
+#include "pushing/brick_bytes.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -6,10 +6,10 @@
 #include <span>
 
 #include "files/brick_file_format.hpp"
-#include "statistics_message.hpp"
-#include "wire_message.hpp"
+#include "pushing/statistics_message.hpp"
+#include "pushing/wire_message.hpp"
 
-namespace meniscus::c {
+namespace meniscus::pushing {
 namespace {
 
 // Numbers of fields: proto/meniscus/v1/brick_file.proto, surface_service.proto, mesh.proto.
@@ -116,4 +116,4 @@ std::vector<FramePiece> brick_pieces(const client::ReceivedFrame& frame) {
     return pieces;
 }
 
-}  // namespace meniscus::c
+}  // namespace meniscus::pushing

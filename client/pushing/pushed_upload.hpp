@@ -6,25 +6,17 @@
 #include <span>
 #include <string>
 
-#include "frame_bytes.hpp"
-#include "meniscus/meniscus.h"
-#include "push_options.hpp"
-#include "push_process.hpp"
-#include "text_options/option_reader.hpp"
+#include "pushing/frame_bytes.hpp"
+#include "pushing/push_options.hpp"
+#include "pushing/push_process.hpp"
 
-struct meniscus_client {
-    std::string program;
-    std::string address;
-    meniscus::text_options::Options connection;
-};
-
-namespace meniscus::c {
+namespace meniscus::pushing {
 
 class PushedUpload {
 public:
     /// Starts the program, writes the beginning of what it is to read, and waits for its session. Throws
     /// client::ServerError, or what the program says.
-    PushedUpload(const meniscus_client& client, const PushArguments& arguments, const std::string& beginning);
+    PushedUpload(const std::string& program, const PushArguments& arguments, const std::string& beginning);
 
     const std::string& session_id() const { return id_; }
     /// Throws InvalidInput unless the index is above the one before, and the time finite.
@@ -32,8 +24,6 @@ public:
     /// The frame of this index, after require_order(). Waits while the program takes no more; throws what it has said
     /// once it has ended.
     void write(std::span<const FramePiece> pieces, std::uint64_t index);
-    /// As meniscus_session_next().
-    meniscus_result next(double timeout_seconds, meniscus_frame** frame);
     PushProcess& process() { return process_; }
     const PushProcess& process() const { return process_; }
 
@@ -43,7 +33,4 @@ private:
     std::optional<std::uint64_t> last_index_;
 };
 
-/// Throws NotBuilt.
-[[noreturn]] void not_through_push(const std::string& what, const std::string& remedy);
-
-}  // namespace meniscus::c
+}  // namespace meniscus::pushing
