@@ -17,9 +17,10 @@ public:
     /// work: must throw nothing. Nothing else is being done.
     void start(std::function<void()> work) {
         const std::lock_guard lock(mutex_);
-        work_ = std::move(work);
-        // With the first work: a process that never has any needs no thread.
+        // With the first work: a process that never has any needs no thread. Where the system refuses it, nothing is
+        // done.
         if (!thread_.joinable()) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+        work_ = std::move(work);
         changed_.notify_all();
     }
     bool is_idle() const {

@@ -249,11 +249,11 @@ private:
     const std::shared_ptr<PrometheusMetrics> metrics_;
     const std::unique_ptr<RecordingWriter> recordings_;  ///< none: nothing is recorded
     const std::unique_ptr<Publications> publications_;   ///< none: nothing is published
+    ActiveCalls streams_;
+    ActiveCalls receivers_;  ///< calls of watchers and readers
     SessionRegistry registry_;
     const std::unique_ptr<RecordingReads> recording_reads_;  ///< none: nothing is recorded
     const std::unique_ptr<RecordingTidying> tidying_;        ///< none: nothing is recorded
-    ActiveCalls streams_;
-    ActiveCalls receivers_;  ///< calls of watchers and readers
     Refusals refusals_;
     HealthService health_service_;
     ServerServiceImpl server_service_;
@@ -365,6 +365,10 @@ void Server::Impl::shutdown() {
     port_.stop();
     grpc_->Shutdown(at_most(goodbye_time));
     grpc_.reset();
+    // The thread of an alarm, or of a session, may still hold a call that is over, for a moment, and the session with
+    // it.
+    streams_.wait_until_none();
+    receivers_.wait_until_none();
     probes_.reset();
 }
 

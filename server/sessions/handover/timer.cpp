@@ -27,10 +27,11 @@ std::uint64_t Timer::add(Entry entry) {
     std::uint64_t name = 0;
     {
         const std::lock_guard lock(mutex_);
+        // First: where the system refuses it, nothing is to be called.
+        if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
         name = ++names_;
         wake = entry.time < sleeps_until_;
         entries_.emplace(name, std::move(entry));
-        if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
     }
     if (wake) changed_.notify_all();
     return name;

@@ -3,10 +3,20 @@
 namespace meniscus::server {
 
 WorkerPool::WorkerPool(unsigned threads) {
-    for (unsigned i = 1; i < threads; ++i) threads_.emplace_back([this] { work(); });
+    threads_.reserve(threads);
+    try {
+        for (unsigned i = 1; i < threads; ++i) threads_.emplace_back([this] { work(); });
+    } catch (...) {  // the system refuses a thread
+        stop();
+        throw;
+    }
 }
 
 WorkerPool::~WorkerPool() {
+    stop();
+}
+
+void WorkerPool::stop() {
     {
         const std::lock_guard lock(mutex_);
         stopping_ = true;

@@ -38,6 +38,8 @@ private:
     };
 
     void work();
+    /// Ends the threads.
+    void stop();
     /// Takes indices from the loop until there are none; entered and left with the lock held.
     void help(Loop& loop, std::unique_lock<std::mutex>& lock);
 

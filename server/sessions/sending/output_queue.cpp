@@ -28,27 +28,48 @@ void OutputQueue::push_to(std::size_t reader, SharedMessage message) {
 }
 
 void OutputQueue::finish(std::exception_ptr error) {
-    end(std::move(error), false);
-}
-
-void OutputQueue::abort(std::exception_ptr error) {
-    end(std::move(error), true);
-}
-
-void OutputQueue::end(std::exception_ptr error, bool drop) {
     std::vector<std::size_t> waiting;
     {
         const std::lock_guard lock(mutex_);
-        if (drop)
-            for (Reader& reader : readers_) reader.messages.clear();
         if (finished_) return;
-        finished_ = true;
-        aborted_ = drop;
-        error_ = std::move(error);
-        waiting = to_wake(drop);
+        waiting = end(std::move(error), false);
     }
-    changed_.notify_all();
     wake(waiting);
+}
+
+void OutputQueue::abort(std::exception_ptr error) {
+    std::vector<std::size_t> waiting;
+    {
+        const std::lock_guard lock(mutex_);
+        if (finished_ && !has_messages()) return;
+        waiting = end(std::move(error), true);
+    }
+    wake(waiting);
+}
+
+bool OutputQueue::abort_unless_finished(std::exception_ptr error) {
+    std::vector<std::size_t> waiting;
+    {
+        const std::lock_guard lock(mutex_);
+        if (finished_) return false;
+        waiting = end(std::move(error), true);
+    }
+    wake(waiting);
+    return true;
+}
+
+std::vector<std::size_t> OutputQueue::end(std::exception_ptr error, bool drop) {
+    if (drop)
+        for (Reader& reader : readers_) reader.messages.clear();
+    finished_ = true;
+    aborted_ = drop;
+    error_ = std::move(error);
+    changed_.notify_all();
+    return to_wake(drop);
+}
+
+bool OutputQueue::has_messages() const {
+    return std::ranges::any_of(readers_, [](const Reader& reader) { return !reader.messages.empty(); });
 }
 
 bool OutputQueue::is_room() const {

@@ -48,8 +48,10 @@ public:
     void push_to(std::size_t reader, SharedMessage message);
     /// No messages follow. Later calls do nothing.
     void finish(std::exception_ptr error);
-    /// Ends the queue as finish() does, and drops the messages that wait.
+    /// Drops the messages that wait, and ends the queue with the error, also one that had finished with any.
     void abort(std::exception_ptr error);
+    /// False, and nothing is dropped, where the queue has finished: what waits is still taken.
+    bool abort_unless_finished(std::exception_ptr error);
     /// Waits until a frame may begin. Returns false if nobody will read it.
     bool wait_for_room();
     /// Whether wait_for_room() would not wait.
@@ -72,8 +74,10 @@ private:
         bool waits = false;
     };
 
-    void end(std::exception_ptr error, bool drop);
     // With the lock held.
+    /// Returns the readers to wake.
+    std::vector<std::size_t> end(std::exception_ptr error, bool drop);
+    bool has_messages() const;
     bool is_room() const;
     /// The readers that wait, or all, to be woken outside of the lock. They wait no longer.
     std::vector<std::size_t> to_wake(bool all = false);

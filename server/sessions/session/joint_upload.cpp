@@ -148,11 +148,13 @@ void JointUpload::request_input() {
         if (ended_ || input_requested_ || !has(State::ready) || !all_that_send_are(State::ready)) return;
         input_requested_ = true;
     }
-    upload_->unreported_drops.when_below_limit([weak = weak_from_this(), session = session_] {
-        session->request_input([weak](InputFrame& input) {
-            const auto self = weak.lock();
-            return self && self->use_input(input);
-        });
+    // What waits in the upload holds neither this nor the session, which has the upload.
+    upload_->unreported_drops.when_below_limit([weak = weak_from_this()] {
+        if (const auto self = weak.lock())
+            self->session_->request_input([weak](InputFrame& input) {
+                const auto locked = weak.lock();
+                return locked && locked->use_input(input);
+            });
     });
 }
 
@@ -361,8 +363,9 @@ bool JointUpload::stop_reading() {
 void JointUpload::break_off(const std::string& reason) {
     const auto error = std::make_exception_ptr(Refusal(
         Refusal::Kind::aborted, fmt::format("{}: the frames without an answer are dropped for all parts", reason)));
-    // First, so that nothing is put into it any more.
-    upload_->output.abort(error);
+    // First, so that nothing is put into it any more. Where it has finished meanwhile, the others still take their
+    // answers.
+    if (!upload_->output.abort_unless_finished(error)) return;
     session_->cancel_upload(upload_, UploadEnd::vanished);
     end_with(error);
 }
@@ -385,7 +388,7 @@ void JointUpload::done(std::uint32_t part, UploadEnd end) {
         if (const auto newest = joints.newest.lock(); newest && newest->upload_->run == upload_->run)
             newest->go_on_without(part);
     }
-    if (parts_.size() > 1 && end == UploadEnd::vanished && !upload_->output.finished())
+    if (parts_.size() > 1 && end == UploadEnd::vanished)
         break_off(fmt::format("{} has broken off", name_of_part(part, parts_.size())));
     if (all) session_->cancel_upload(upload_, end);
 }

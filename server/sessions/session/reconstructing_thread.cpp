@@ -73,6 +73,7 @@ void ReconstructingThread::join() {
 
 void ReconstructingThread::release_memory() {
     functions_ = {};
+    failed_ = nullptr;
     bricks_.forget();
     particles_.forget();
 }

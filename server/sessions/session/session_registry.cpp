@@ -66,6 +66,9 @@ SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& bac
       bytes_in_flight_(std::make_shared<BytesInFlight>(limits.bytes_in_flight, limits.sessions)),
       memory_(shared_memory(limits.total_bytes)),
       snapshots_(limits.snapshots, limits.snapshots_per_name) {
+    // First: it ends by itself where the system refuses the thread below.
+    if (const auto interval = idle_check_interval(limits); interval.count() != 0)
+        idle_check_.emplace().every(interval, [this] { end_idle(std::chrono::steady_clock::now()); });
     joining_ = std::thread([this] {
         while (auto session = removed_.take().value_or(nullptr)) {
             session->join();
@@ -75,8 +78,6 @@ SessionRegistry::SessionRegistry(const Limits& limits, const BackendOptions& bac
             sessions_have_ended_ = true;
         }
     });
-    if (const auto interval = idle_check_interval(limits); interval.count() != 0)
-        idle_check_.emplace().every(interval, [this] { end_idle(std::chrono::steady_clock::now()); });
 }
 
 SessionRegistry::~SessionRegistry() {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <limits>
 #include <string>
@@ -171,6 +172,15 @@ TEST_F(CPush, SaysThatTheProgramIsAnotherOrIsNotThere) {
     ::setenv("MENISCUS_PROGRAM", "/nowhere/meniscus", 1);
     EXPECT_TRUE(refused(meniscus_client_connect(address_.c_str(), nullptr, client.out()), MENISCUS_UNIMPLEMENTED,
                         "MENISCUS_PROGRAM (/nowhere/meniscus) nor in PATH"));
+}
+
+TEST_F(CPush, EndsWithItsHandleWhereThisProcessIgnoresTheSignalThatEndsIt) {
+    auto* const before = std::signal(SIGTERM, SIG_IGN);
+    {
+        const CSession session = open();
+        EXPECT_EQ(push(session, 1, 0), MENISCUS_OK) << meniscus_error_message();
+    }
+    std::signal(SIGTERM, before);
 }
 
 TEST_F(CPush, EndsTheSessionWithItsHandle) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -201,6 +202,28 @@ TEST_F(Parts, SayTheSameOfTheFrames) {
     } catch (const InvalidInput& error) {
         EXPECT_STREQ(error.what(), "part 3 says parts 4, the parts before it 3; it is the same for all parts");
     }
+}
+
+/// The session keeps an upload whose frame has failed.
+TEST(JointUploads, ThatWaitForTheirDropsToBeReportedHoldNoSession) {
+    struct SilentStream : PartStream {
+        void wake() override {}
+        void read_next() override {}
+        void begun(std::optional<std::vector<FramePiece>> /*pieces*/) override {}
+        void stop_reading() override {}
+    };
+    std::optional<CheckedSession> checked(std::in_place, 1, std::make_shared<BytesInFlight>());
+    const std::weak_ptr<Session> session = checked->session;
+    const auto stream = std::make_shared<SilentStream>();
+    auto joint = JointUpload::open(checked->session, {.policy = UploadPolicy::latest}, 0, stream);
+    const std::shared_ptr<Upload> upload = joint->upload();
+    for (std::size_t i = 0; i < UnreportedDrops::limit; ++i) upload->unreported_drops.add();
+    joint->ready(0);
+    joint->done(0, UploadEnd::vanished);
+    joint = nullptr;
+    checked.reset();
+    EXPECT_TRUE(session.expired());
+    upload->unreported_drops.report();
 }
 
 TEST_F(Parts, EndTogetherWhereOneBreaksOff) {

@@ -162,5 +162,35 @@ TEST(OutputQueue, DropsWhatWaitsWhenAborted) {
     EXPECT_NE(std::get<OutputQueue::End>(queue.take()).error, nullptr);
 }
 
+TEST(OutputQueue, TellsOfWhatAnAbortDropsAlsoOnceItHasFinished) {
+    for (const bool is_taken : {false, true}) {
+        int woken = 0;
+        OutputQueue queue([&](std::size_t /*reader*/) { ++woken; });
+        queue.push(message("the last"));
+        queue.finish(nullptr);
+        if (is_taken) queue.take();
+        queue.abort(std::make_exception_ptr(std::runtime_error("gone")));
+        EXPECT_EQ(queue.aborted(), !is_taken);
+        EXPECT_EQ(woken, is_taken ? 0 : 1);
+        EXPECT_EQ(std::get<OutputQueue::End>(queue.take()).error == nullptr, is_taken);
+    }
+}
+
+TEST(OutputQueue, IsAbortedUnlessItHasFinished) {
+    const auto gone = std::make_exception_ptr(std::runtime_error("gone"));
+    OutputQueue queue([](std::size_t /*reader*/) {});
+    queue.push(message("the last"));
+    queue.finish(nullptr);
+    EXPECT_FALSE(queue.abort_unless_finished(gone));
+    EXPECT_EQ(*std::get<SharedMessage>(queue.take()), "the last");
+    EXPECT_EQ(std::get<OutputQueue::End>(queue.take()).error, nullptr);
+
+    OutputQueue other([](std::size_t /*reader*/) {});
+    other.push(message("dropped"));
+    EXPECT_TRUE(other.abort_unless_finished(gone));
+    EXPECT_EQ(std::get<OutputQueue::End>(other.take()).error, gone);
+    EXPECT_FALSE(other.abort_unless_finished(gone)) << "it has ended";
+}
+
 }  // namespace
 }  // namespace meniscus::server
