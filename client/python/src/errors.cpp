@@ -30,10 +30,9 @@ void raise(const char* name, const std::exception& error, Attributes attributes 
     PyErr_SetObject(type.ptr(), raised.ptr());
 }
 
-// NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 has it so
 void translate(std::exception_ptr thrown) {
     try {
-        std::rethrow_exception(thrown);
+        std::rethrow_exception(std::move(thrown));
     } catch (const InvalidInput& error) {
         raise("InvalidInput", error);
     } catch (const LimitExceeded& error) {
