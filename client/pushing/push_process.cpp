@@ -64,7 +64,8 @@ public:
 
     pid_t start(const std::string& program, std::vector<std::string> arguments, std::vector<std::string> environment,
                 int input, int output) {
-        // Signals that a thread of the caller holds back, or the caller ignores, are to end this process.
+        // Signals that a thread of the caller holds back are to end this process, and SIGTERM where all of it ignores
+        // that, too.
         sigset_t signals;
         sigemptyset(&signals);
         posix_spawnattr_setsigmask(&attributes_, &signals);

@@ -249,11 +249,11 @@ private:
     const std::shared_ptr<PrometheusMetrics> metrics_;
     const std::unique_ptr<RecordingWriter> recordings_;  ///< none: nothing is recorded
     const std::unique_ptr<Publications> publications_;   ///< none: nothing is published
-    ActiveCalls streams_;
-    ActiveCalls receivers_;  ///< calls of watchers and readers
     SessionRegistry registry_;
     const std::unique_ptr<RecordingReads> recording_reads_;  ///< none: nothing is recorded
     const std::unique_ptr<RecordingTidying> tidying_;        ///< none: nothing is recorded
+    ActiveCalls streams_;
+    ActiveCalls receivers_;  ///< calls of watchers and readers
     Refusals refusals_;
     HealthService health_service_;
     ServerServiceImpl server_service_;

@@ -63,14 +63,14 @@ class WithoutTheService(unittest.TestCase):
         standing_in = {
             file: commands[file]
             for file in commands
-            if re.search("/absent/|/client/pushing/|/client/ranks/pushed_", file)
+            if re.search("/absent/|/client/pushing/|/client/ranks/piped_", file)
         }
         names = {os.path.splitext(os.path.basename(file))[0] for file in standing_in}
         # Of .glb nothing is there without nlohmann-json, whatever Draco would make of it.
         libraries = {"bricks", "draco", "glb", "hdf5", "json", "openssl", "png", "pugixml", "zlib"}
         of_c = {"publishing", "pushing", "through_push", "watching"}
         pushing = {"brick_bytes", "frame_bytes", "json_line", "push_answer", "push_options", "push_process"}
-        pushing |= {"pushed_upload", "statistics_message"}
+        pushing |= {"piped_upload", "pushed_upload", "statistics_message"}
         self.assertEqual(names, libraries | of_c | pushing)
         for command in standing_in.values():
             run(*shlex.split(command), "-fsyntax-only")

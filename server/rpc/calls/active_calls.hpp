@@ -34,12 +34,9 @@ public:
         ActiveCalls& calls_;
     };
 
-    void wait_until_none() {
-        std::unique_lock lock(mutex_);
-        none_.wait(lock, [&] { return count_ == 0; });
-    }
     /// Returns false if calls still run at the deadline.
-    bool wait_until_none(std::chrono::system_clock::time_point deadline) {
+    bool wait_until_none(
+        std::chrono::system_clock::time_point deadline = std::chrono::system_clock::time_point::max()) {
         std::unique_lock lock(mutex_);
         return none_.wait_until(lock, deadline, [&] { return count_ == 0; });
     }

@@ -28,44 +28,32 @@ void OutputQueue::push_to(std::size_t reader, SharedMessage message) {
 }
 
 void OutputQueue::finish(std::exception_ptr error) {
-    std::vector<std::size_t> waiting;
-    {
-        const std::lock_guard lock(mutex_);
-        if (finished_) return;
-        waiting = end(std::move(error), false);
-    }
-    wake(waiting);
+    end(std::move(error), false, false);
 }
 
 void OutputQueue::abort(std::exception_ptr error) {
-    std::vector<std::size_t> waiting;
-    {
-        const std::lock_guard lock(mutex_);
-        if (finished_ && !has_messages()) return;
-        waiting = end(std::move(error), true);
-    }
-    wake(waiting);
+    end(std::move(error), true, true);
 }
 
 bool OutputQueue::abort_unless_finished(std::exception_ptr error) {
+    return end(std::move(error), true, false);
+}
+
+bool OutputQueue::end(std::exception_ptr error, bool drop, bool again) {
     std::vector<std::size_t> waiting;
     {
         const std::lock_guard lock(mutex_);
-        if (finished_) return false;
-        waiting = end(std::move(error), true);
+        if (finished_ && !(again && has_messages())) return false;
+        if (drop)
+            for (Reader& reader : readers_) reader.messages.clear();
+        finished_ = true;
+        aborted_ = drop;
+        if (!error_) error_ = std::move(error);
+        waiting = to_wake(drop);
     }
+    changed_.notify_all();
     wake(waiting);
     return true;
-}
-
-std::vector<std::size_t> OutputQueue::end(std::exception_ptr error, bool drop) {
-    if (drop)
-        for (Reader& reader : readers_) reader.messages.clear();
-    finished_ = true;
-    aborted_ = drop;
-    error_ = std::move(error);
-    changed_.notify_all();
-    return to_wake(drop);
 }
 
 bool OutputQueue::has_messages() const {

@@ -48,7 +48,8 @@ public:
     void push_to(std::size_t reader, SharedMessage message);
     /// No messages follow. Later calls do nothing.
     void finish(std::exception_ptr error);
-    /// Drops the messages that wait, and ends the queue with the error, also one that had finished with any.
+    /// Drops the messages that wait, and ends the queue with the error. One that has finished ends with it only if it
+    /// did so well, and messages wait.
     void abort(std::exception_ptr error);
     /// False, and nothing is dropped, where the queue has finished: what waits is still taken.
     bool abort_unless_finished(std::exception_ptr error);
@@ -74,9 +75,9 @@ private:
         bool waits = false;
     };
 
+    /// again: also where it has finished and messages wait. False: nothing was done.
+    bool end(std::exception_ptr error, bool drop, bool again);
     // With the lock held.
-    /// Returns the readers to wake.
-    std::vector<std::size_t> end(std::exception_ptr error, bool drop);
     bool has_messages() const;
     bool is_room() const;
     /// The readers that wait, or all, to be woken outside of the lock. They wait no longer.

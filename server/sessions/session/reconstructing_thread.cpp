@@ -73,7 +73,6 @@ void ReconstructingThread::join() {
 
 void ReconstructingThread::release_memory() {
     functions_ = {};
-    failed_ = nullptr;
     bricks_.forget();
     particles_.forget();
 }

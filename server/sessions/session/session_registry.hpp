@@ -134,10 +134,10 @@ private:
     std::map<int, std::shared_ptr<PagePinning>> pinning_;         ///< by device
     bool draining_ = false;
 
-    // Joins the threads of sessions that were removed, so that no gRPC thread has to wait for a reconstruction, and
-    // that none of those threads, which wake streams that know the session, has the last reference.
+    // Joins the threads of sessions that were removed: no gRPC thread has to wait for a reconstruction, and no thread
+    // of a session, which wakes streams that hold it, has the last reference to it.
     std::atomic<std::uint32_t> ending_{0};       ///< sessions that were removed, and whose threads may run still
-    Channel<std::shared_ptr<Session>> removed_;  ///< none: no other follows
+    Channel<std::shared_ptr<Session>> removed_;  ///< null: none follows
     std::thread joining_;
     std::atomic<bool> sessions_have_ended_{false};  ///< since free pages were returned
 

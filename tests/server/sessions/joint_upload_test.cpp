@@ -204,14 +204,15 @@ TEST_F(Parts, SayTheSameOfTheFrames) {
     }
 }
 
+struct SilentStream : PartStream {
+    void wake() override {}
+    void read_next() override {}
+    void begun(std::optional<std::vector<FramePiece>> /*pieces*/) override {}
+    void stop_reading() override {}
+};
+
 /// The session keeps an upload whose frame has failed.
 TEST(JointUploads, ThatWaitForTheirDropsToBeReportedHoldNoSession) {
-    struct SilentStream : PartStream {
-        void wake() override {}
-        void read_next() override {}
-        void begun(std::optional<std::vector<FramePiece>> /*pieces*/) override {}
-        void stop_reading() override {}
-    };
     std::optional<CheckedSession> checked(std::in_place, 1, std::make_shared<BytesInFlight>());
     const std::weak_ptr<Session> session = checked->session;
     const auto stream = std::make_shared<SilentStream>();
@@ -299,12 +300,9 @@ TEST_F(Parts, ThatComputeAreNotIdleWhileOthersWaitForThem) {
 }
 
 /// Lets the server begin to stop when another stream has taken its place.
-struct DrainingStream final : PartStream {
+struct DrainingStream final : SilentStream {
     explicit DrainingStream(Session& of) : session(of) {}
     void wake() override { session.drain(std::chrono::seconds(1)); }
-    void read_next() override {}
-    void begun(std::optional<std::vector<FramePiece>> /*pieces*/) override {}
-    void stop_reading() override {}
 
     Session& session;
 };

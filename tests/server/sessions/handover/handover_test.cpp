@@ -176,6 +176,16 @@ TEST(OutputQueue, TellsOfWhatAnAbortDropsAlsoOnceItHasFinished) {
     }
 }
 
+TEST(OutputQueue, KeepsTheErrorThatItHasFinishedWithWhenAborted) {
+    const auto refused = std::make_exception_ptr(std::runtime_error("refused"));
+    OutputQueue queue([](std::size_t /*reader*/) {});
+    queue.push(message("the last"));
+    queue.finish(refused);
+    queue.abort(std::make_exception_ptr(std::runtime_error("gone")));
+    EXPECT_TRUE(queue.aborted());
+    EXPECT_EQ(std::get<OutputQueue::End>(queue.take()).error, refused);
+}
+
 TEST(OutputQueue, IsAbortedUnlessItHasFinished) {
     const auto gone = std::make_exception_ptr(std::runtime_error("gone"));
     OutputQueue queue([](std::size_t /*reader*/) {});
