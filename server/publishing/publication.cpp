@@ -48,6 +48,7 @@ Publication::Publication(std::string owner, const Settings& settings, const Publ
     : owner_(std::move(owner)),
       settings_(settings),
       keep_seconds_(options.keep.count() != 0 ? std::optional(seconds_of(options.keep)) : std::nullopt),
+      limit_(options.limit),
       most_frame_bytes_(options.limit != 0 ? std::min(options.limit, files::SegmentFile::most_bytes)
                                            : files::SegmentFile::most_bytes),
       counters_(std::move(counters)) {
@@ -130,6 +131,8 @@ void Publication::end_segment(Clock::time_point now) {
     const std::size_t old = files::segments_beyond(static_cast<std::size_t>(segments_.end() - first), keep_seconds_,
                                                    [&](std::size_t i) { return listed(i).entry.seconds(); });
     for (std::size_t i = 0; i < old; ++i) leave(listed(i), now);
+    // Before a reader sees the new one beside them.
+    while (limit_ != 0 && bytes_ > limit_) remove_oldest();
 }
 
 void Publication::end(std::uint64_t turn, Clock::time_point now) {
@@ -168,7 +171,10 @@ std::size_t Publication::bytes() const {
 
 void Publication::drop_oldest() {
     const std::lock_guard lock(mutex_);
-    if (segments_.empty()) return;
+    if (!segments_.empty()) remove_oldest();
+}
+
+void Publication::remove_oldest() {
     Segment& oldest = segments_.front();
     if (oldest.is_listed()) {
         counters_->left_out += oldest.entry.frames();

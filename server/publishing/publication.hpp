@@ -108,12 +108,15 @@ private:
     void change_manifest() noexcept;
     /// The manifest.
     void leave(Segment& segment, Clock::time_point now);
+    /// There is one.
+    void remove_oldest();
     void take_attributes(const EncodedFrame& frame);
     bool has(std::uint64_t run_id, std::uint64_t index) const;
 
     const std::string owner_;
     const Settings settings_;
     const std::optional<double> keep_seconds_;  ///< of the newest frames; none: all
+    const std::size_t limit_;                   ///< of its segments' bytes; 0: none
     const std::size_t most_frame_bytes_;
     const std::shared_ptr<PublishingCounters> counters_;
 

@@ -67,6 +67,19 @@ TEST_F(PublicationOfASession, RefusesAFrameThatHasNoRoomByItselfAndKeepsTheOther
     EXPECT_EQ(counters->held, all.bytes() + publication.find("manifest.json")->bytes.size()) << "no byte of it is held";
 }
 
+TEST_F(PublicationOfASession, NeverListsMoreThanItsLimitAndLosesTheOldest) {
+    const std::string half(limit / 2 - 1000, 'x');
+    for (std::uint64_t frame = 0; frame < 5; ++frame) {
+        add(frame, 2.0 * static_cast<double>(frame), {std::to_string(frame) + half});
+        const v1::Publication all = manifest();
+        EXPECT_LE(all.bytes(), limit);
+        EXPECT_EQ(all.frames() + all.left_frames(), frame + 1);
+        EXPECT_EQ(all.segments(all.segments_size() - 1).last_frame(), frame) << "the newest stays";
+        EXPECT_EQ(counters->left_out, all.left_frames());
+    }
+    EXPECT_EQ(manifest().frames(), 2U);
+}
+
 TEST_F(PublicationOfASession, HasSegmentsByTheHashOfTheirBytes) {
     for (int i = 0; i < 5; ++i) add(static_cast<std::uint64_t>(i), i);
     publication.end(turn, time(5));
