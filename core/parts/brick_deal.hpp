@@ -13,7 +13,9 @@
 namespace meniscus {
 
 /// The work for a particle, in triangles. (core/README.md#parts-in-turn-in-one-process-or-several)
-inline constexpr std::uint64_t particle_over_triangle = 5;
+inline constexpr std::uint64_t particle_over_triangle = 7;
+/// That for a particle of a brick beside a part, which the part gets, too.
+inline constexpr std::uint64_t particle_beside_over_triangle = 3;
 
 /// What a process has in a brick.
 struct BrickLoad {
@@ -24,6 +26,7 @@ struct BrickLoad {
 
     /// Whole: its sums do not depend on their order.
     std::uint64_t work() const { return particle_over_triangle * particles + triangles; }
+    std::uint64_t work_beside() const { return particle_beside_over_triangle * particles; }
     bool operator==(const BrickLoad&) const = default;
 };
 /// The bricks that hold particles of a valid frame of a process, by (z, y, x). each_stands_for: of each of such groups
@@ -42,10 +45,10 @@ struct BrickDeal {
     }
 };
 
-/// Deals all bricks to parts: boxes that fill space, made by cutting boxes in two between bricks. Each cut is where the
-/// side with more work for each of its parts has least: its own, and half of that in the layer of bricks beyond the
-/// cut, of which it needs some. The same for the same loads, in whatever order. parts: 1 to max_parts, else throws
-/// InvalidInput; there are fewer boxes where a brick would have several.
+/// Deals all bricks to parts: boxes that fill space, made by cutting boxes in two between bricks, such that the part
+/// with most work has little: that of its bricks, and for the particles of those around it. The same for the same
+/// loads, in whatever order. parts: 1 to max_parts, else throws InvalidInput; there are fewer boxes where a brick would
+/// have several.
 BrickDeal deal_bricks(std::vector<BrickLoad> loads, std::size_t parts);
 
 /// The rank that makes each part. Each maker has as many as the others, or one more. Parts are given away by the number

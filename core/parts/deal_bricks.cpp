@@ -1,5 +1,6 @@
 // Boxes of bricks for parts, by recursive bisection.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 #include <string>
@@ -15,115 +16,230 @@
 namespace meniscus {
 namespace {
 
-using Loads = std::span<BrickLoad>;
+/// Up to here a cut is chosen by what can be made of both of its sides; of more parts, by what each side has for each.
+constexpr std::size_t searched_parts = 4;
+/// Cuts that are tried at most, the most promising ones first.
+constexpr std::size_t most_tried = 32;
 
-std::uint64_t work_of(std::span<const BrickLoad> loads) {
-    std::uint64_t work = 0;
-    for (const BrickLoad& load : loads) work += load.work();
-    return work;
+/// What all processes have in a brick.
+struct Brick {
+    BrickCoordinate at{};
+    double work = 0.0;         ///< of the part whose it is
+    double work_beside = 0.0;  ///< of each part that touches it, which gets its particles, too
+};
+using Bricks = std::vector<Brick>;
+
+/// By (z, y, x), so that sums do not depend on the order of the loads.
+Bricks bricks_of(std::span<const BrickLoad> loads) {
+    Bricks bricks;
+    bricks.reserve(loads.size());
+    for (const BrickLoad& load : loads)
+        bricks.push_back({load.brick, static_cast<double>(load.work()), static_cast<double>(load.work_beside())});
+    const auto key = [](const Brick& b) { return brick_key({b.at[0], b.at[1], b.at[2]}); };
+    std::sort(bricks.begin(), bricks.end(), [&](const Brick& a, const Brick& b) { return key(a) < key(b); });
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < bricks.size(); ++i)
+        if (bricks[i].at == bricks[last].at) {
+            bricks[last].work += bricks[i].work;
+            bricks[last].work_beside += bricks[i].work_beside;
+        } else {
+            bricks[++last] = bricks[i];
+        }
+    bricks.resize(std::min(bricks.size(), last + 1));
+    return bricks;
+}
+
+/// A box that is to be cut, with the bricks in it and those that touch it.
+struct Piece {
+    BrickBox box;
+    Bricks own, around;
+    std::size_t parts = 1;
+};
+
+/// Without surface and particles there is nothing to do, whatever lies around.
+double cost_of(double work, double beside) {
+    return work == 0.0 ? 0.0 : work + beside;
+}
+double cost_of(const Piece& piece) {
+    double work = 0.0, beside = 0.0;
+    for (const Brick& brick : piece.own) work += brick.work;
+    for (const Brick& brick : piece.around) beside += brick.work_beside;
+    return cost_of(work, beside);
 }
 
 /// A plane between two layers of bricks.
 struct Cut {
     std::size_t axis = 0;
     std::int32_t at = 0;  ///< the first layer above
-    double cost = std::numeric_limits<double>::infinity();
+    std::size_t parts_below = 0;
+    double least = 0.0;  ///< that the part with most work has, however the sides are cut
 };
 
 /// The bricks that lie at one place along an axis.
 struct Layer {
     std::int32_t at = 0;
-    double work = 0.0;
+    std::size_t bricks = 0;
+    double work = 0.0, work_beside = 0.0;
+    double around = 0.0;  ///< work_beside of those around the box
 };
 
-/// Ascending; some may have no work.
-std::vector<Layer> layers_of(std::span<const BrickLoad> loads, std::size_t axis) {
+/// Ascending.
+std::vector<Layer> layers_of(const Piece& piece, std::size_t axis) {
     std::vector<Layer> layers;
-    if (loads.empty()) return layers;
-    const auto by_axis = [axis](const BrickLoad& a, const BrickLoad& b) { return a.brick[axis] < b.brick[axis]; };
-    const auto [low, high] = std::minmax_element(loads.begin(), loads.end(), by_axis);
-    const std::int32_t first = low->brick[axis];
-    const auto place_of = [&](const BrickLoad& load) { return static_cast<std::size_t>(load.brick[axis] - first); };
-    // A table where they lie close together: sorting takes longer than all else of the deal.
-    if (const std::size_t places = place_of(*high) + 1; places <= 4 * loads.size()) {
-        layers.resize(places);
-        for (const BrickLoad& load : loads) {
-            Layer& layer = layers[place_of(load)];
-            layer = {load.brick[axis], layer.work + static_cast<double>(load.work())};
-        }
-        std::erase_if(layers, [](const Layer& layer) { return layer.work == 0.0; });
-        return layers;
-    }
-    for (const BrickLoad& load : loads) layers.push_back({load.brick[axis], static_cast<double>(load.work())});
+    layers.reserve(piece.own.size() + piece.around.size());
+    for (const Brick& brick : piece.own) layers.push_back({brick.at[axis], 1, brick.work, brick.work_beside, 0.0});
+    for (const Brick& brick : piece.around) layers.push_back({brick.at[axis], 0, 0.0, 0.0, brick.work_beside});
     std::sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.at < b.at; });
     std::size_t last = 0;
     for (std::size_t i = 1; i < layers.size(); ++i)
-        if (layers[i].at == layers[last].at)
+        if (layers[i].at == layers[last].at) {
+            layers[last].bricks += layers[i].bricks;
             layers[last].work += layers[i].work;
-        else
+            layers[last].work_beside += layers[i].work_beside;
+            layers[last].around += layers[i].around;
+        } else {
             layers[++last] = layers[i];
-    layers.resize(last + 1);
+        }
+    layers.resize(std::min(layers.size(), last + 1));
     return layers;
 }
 
-/// The best of the cuts along an axis through bricks with work. below, above: numbers of parts on either side.
-Cut best_cut(std::span<const BrickLoad> loads, const BrickBox& box, std::size_t axis, double below, double above) {
-    const std::vector<Layer> layers = layers_of(loads, axis);
-    const auto all = static_cast<double>(work_of(loads));
-    Cut best{axis};
-    double under = 0.0, layer_before = 0.0;
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-        const auto [at, layer] = layers[i];
-        // Below this layer; and above it, where the next one is empty.
-        const auto consider = [&](std::int32_t place, double work, double last, double next) {
-            const double cost = std::max((work + next / 2.0) / below, (all - work + last / 2.0) / above);
-            if (place > box.low[axis] && place < box.high[axis] && cost < best.cost) best = {axis, place, cost};
-        };
-        consider(at, under, layer_before, layer);
-        under += layer;
-        const bool is_next = i + 1 < layers.size() && layers[i + 1].at == at + 1;
-        if (!is_next) consider(at + 1, under, layer, 0.0);
-        layer_before = is_next ? layer : 0.0;
+/// Numbers of parts.
+struct PartCounts {
+    std::size_t least = 1, most = 0;  ///< none if most is less
+};
+
+/// The numbers of parts that the lower side of a cut may get, so that none need be empty. share: of its work.
+PartCounts counts_below(const Piece& piece, std::size_t bricks_below, double share) {
+    const std::size_t parts = piece.parts, bricks_above = piece.own.size() - bricks_below;
+    if (piece.own.size() < parts) return {parts / 2, parts / 2};
+    // Neither gets less than an eighth, so that parts by the thousand are not dealt one by one. Such a cut there is: of
+    // more than four bricks a layer along one of the axes has three quarters at most.
+    const std::size_t fewest = std::max<std::size_t>(parts / 8, 1);
+    const std::size_t least = std::max(fewest, parts - std::min(bricks_above, parts));
+    const std::size_t most = std::min(parts - fewest, bricks_below);
+    if (least > most) return {};
+    const std::size_t even = std::clamp(static_cast<std::size_t>(static_cast<double>(parts) * share), least, most);
+    return {even, std::min(even + 1, most)};
+}
+
+/// Adds those along an axis through or beside bricks.
+void add_cuts(const Piece& piece, std::size_t axis, std::vector<Cut>& cuts) {
+    const std::vector<Layer> layers = layers_of(piece, axis);
+    Layer all;
+    for (const Layer& layer : layers) {
+        all.work += layer.work;
+        all.around += layer.around;
     }
-    return best;
+    Layer under;  // all below the place
+    const auto add = [&](std::int32_t at, const Layer& below, const Layer& above) {
+        if (at <= piece.box.low[axis] || at >= piece.box.high[axis]) return;
+        const double low = cost_of(under.work, under.around + above.around + above.work_beside);
+        const double high =
+            cost_of(all.work - under.work, all.around - under.around + below.around + below.work_beside);
+        const PartCounts counts = counts_below(piece, under.bricks, low / (low + high));
+        for (std::size_t k = counts.least; k <= counts.most; ++k)
+            cuts.push_back(
+                {axis, at, k, std::max(low / static_cast<double>(k), high / static_cast<double>(piece.parts - k))});
+    };
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const std::int32_t at = layers[i].at;
+        const bool is_after = i > 0 && layers[i - 1].at == at - 1;
+        add(at, is_after ? layers[i - 1] : Layer{}, layers[i]);
+        under.bricks += layers[i].bricks;
+        under.work += layers[i].work;
+        under.around += layers[i].around;
+        // Above it, where the next one is empty.
+        if (i + 1 == layers.size() || layers[i + 1].at != at + 1) add(at + 1, layers[i], {});
+    }
+}
+
+/// The most promising first.
+std::vector<Cut> cuts_of(const Piece& piece) {
+    std::vector<Cut> cuts;
+    if (piece.own.empty()) return cuts;
+    for (std::size_t axis = 0; axis < 3; ++axis) add_cuts(piece, axis, cuts);
+    std::stable_sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.least < b.least; });
+    return cuts;
 }
 
 /// Where there is nothing to weigh: the middle of the longest edge.
-Cut middle_cut(const BrickBox& box) {
+Cut middle_cut(const Piece& piece) {
     Cut cut;
     std::int32_t longest = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        if (const std::int32_t edge = box.high[axis] - box.low[axis]; edge > longest) {
+        if (const std::int32_t edge = piece.box.high[axis] - piece.box.low[axis]; edge > longest) {
             longest = edge;
-            cut = {axis, box.low[axis] + edge / 2, 0.0};
+            cut = {axis, piece.box.low[axis] + edge / 2, piece.parts / 2};
         }
     return cut;
 }
 
-/// Deals the loads from `first` to `last`, which lie in the box, and puts them in the order of their parts.
-void deal(BrickDeal& to, std::size_t first, std::size_t last, const BrickBox& box, std::size_t parts) {
+/// Below the cut, and above it.
+std::array<Piece, 2> sides_of(const Piece& piece, const Cut& cut) {
+    std::array<Piece, 2> sides;
+    auto& [low, high] = sides;
+    low.box = high.box = piece.box;
+    low.box.high[cut.axis] = high.box.low[cut.axis] = cut.at;
+    low.parts = cut.parts_below;
+    high.parts = piece.parts - cut.parts_below;
+    for (const Brick& brick : piece.own) {
+        const std::int32_t at = brick.at[cut.axis];
+        (at < cut.at ? low : high).own.push_back(brick);
+        if (at == cut.at) low.around.push_back(brick);
+        if (at == cut.at - 1) high.around.push_back(brick);
+    }
+    for (const Brick& brick : piece.around) {
+        const std::int32_t at = brick.at[cut.axis];
+        if (at <= cut.at) low.around.push_back(brick);
+        if (at >= cut.at - 1) high.around.push_back(brick);
+    }
+    return sides;
+}
+
+double most_work_of(const Piece& piece);
+
+/// The first of those whose part with most work has least.
+Cut best_cut(const Piece& piece, const std::vector<Cut>& cuts) {
+    // Of two parts a cut's least is what they have.
+    if (piece.parts == 2 || piece.parts > searched_parts) return cuts.front();
+    Cut best;
+    best.least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < std::min(cuts.size(), most_tried) && cuts[i].least < best.least; ++i) {
+        const std::array<Piece, 2> sides = sides_of(piece, cuts[i]);
+        const double most = std::max(most_work_of(sides[0]), most_work_of(sides[1]));
+        if (most >= best.least) continue;
+        best = cuts[i];
+        best.least = most;
+    }
+    return best;
+}
+
+double most_work_of(const Piece& piece) {
+    if (piece.parts == 1) return cost_of(piece);
+    const std::vector<Cut> cuts = cuts_of(piece);
+    return cuts.empty() ? cost_of(piece) : best_cut(piece, cuts).least;
+}
+
+/// Deals the loads from `first` to `last`, which lie in the piece, and puts them in the order of their parts.
+void deal(BrickDeal& to, std::size_t first, std::size_t last, const Piece& piece) {
     bool is_one_brick = true;
-    for (std::size_t axis = 0; axis < 3; ++axis) is_one_brick = is_one_brick && box.high[axis] - box.low[axis] == 1;
-    if (parts == 1 || is_one_brick) {
-        to.boxes.push_back(box);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        is_one_brick = is_one_brick && piece.box.high[axis] - piece.box.low[axis] == 1;
+    if (piece.parts == 1 || is_one_brick) {
+        to.boxes.push_back(piece.box);
         to.ends.push_back(last);
         return;
     }
-    const Loads loads = Loads(to.loads).subspan(first, last - first);
-    const std::size_t below = parts / 2;
-    Cut cut;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Cut other = best_cut(loads, box, axis, static_cast<double>(below), static_cast<double>(parts - below));
-        if (other.cost < cut.cost) cut = other;
-    }
-    if (loads.empty() || cut.cost == std::numeric_limits<double>::infinity()) cut = middle_cut(box);
+    const std::vector<Cut> cuts = cuts_of(piece);
+    const Cut cut = cuts.empty() ? middle_cut(piece) : best_cut(piece, cuts);
+    const auto loads = std::span<BrickLoad>(to.loads).subspan(first, last - first);
     const auto above = std::partition(loads.begin(), loads.end(),
                                       [&](const BrickLoad& load) { return load.brick[cut.axis] < cut.at; });
     const std::size_t middle = first + static_cast<std::size_t>(above - loads.begin());
-    BrickBox low = box, high = box;
-    low.high[cut.axis] = high.low[cut.axis] = cut.at;
-    deal(to, first, middle, low, below);
-    deal(to, middle, last, high, parts - below);
+    const std::array<Piece, 2> sides = sides_of(piece, cut);
+    deal(to, first, middle, sides[0]);
+    deal(to, middle, last, sides[1]);
 }
 
 }  // namespace
@@ -159,7 +275,7 @@ BrickDeal deal_bricks(std::vector<BrickLoad> loads, std::size_t parts) {
         throw InvalidInput("the parts are " + std::to_string(parts) + ", must be 1 to " + std::to_string(max_parts));
     BrickDeal dealt;
     dealt.loads = std::move(loads);
-    deal(dealt, 0, dealt.loads.size(), all_bricks, parts);
+    deal(dealt, 0, dealt.loads.size(), {all_bricks, bricks_of(dealt.loads), {}, parts});
     return dealt;
 }
 

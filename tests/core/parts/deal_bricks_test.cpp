@@ -69,15 +69,88 @@ TEST(DealBricks, GivesPartsOfACubeTheSame) {
     std::vector<BrickLoad> loads;
     loads.reserve(8 * 8 * 8);
     for (std::int32_t i = 0; i < 8 * 8 * 8; ++i) loads.push_back({{i % 8, i / 8 % 8, i / 64}, 0, 10});
-    for (const std::size_t parts : {2U, 4U, 8U, 64U})
+    for (const std::size_t parts : {2U, 4U, 8U})
         for (const BrickBox& box : deal_bricks(loads, parts).boxes) EXPECT_EQ(load_of(box, loads), 5120 / parts);
+}
+
+/// What the part with most work has, with that for the particles of bricks around it.
+std::uint64_t most_work(const std::vector<BrickBox>& boxes, const std::vector<BrickLoad>& loads) {
+    std::uint64_t most = 0;
+    for (const BrickBox& box : boxes) {
+        BrickBox wide = box;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            wide.low[axis] = std::max(wide.low[axis] - 1, -brick_end);
+            wide.high[axis] = std::min(wide.high[axis] + 1, brick_end);
+        }
+        std::uint64_t own = 0, beside = 0;
+        for (const BrickLoad& load : loads) {
+            if (box.holds(load.brick))
+                own += load.work();
+            else if (wide.holds(load.brick))
+                beside += load.work_beside();
+        }
+        if (own != 0) most = std::max(most, own + beside);
+    }
+    return most;
+}
+
+TEST(DealBricks, GivesNoPartOfACubeMoreWorkThanEvenCutsDo) {
+    std::vector<BrickLoad> loads;
+    std::vector<BrickBox> even;
+    for (std::int32_t i = 0; i < 8 * 8 * 8; ++i) loads.push_back({{i % 8, i / 8 % 8, i / 64}, 0, 10});
+    for (std::int32_t i = 0; i < 4 * 4 * 4; ++i) {
+        const std::int32_t x = i % 4 * 2, y = i / 4 % 4 * 2, z = i / 16 * 2;
+        even.push_back({{x, y, z}, {x + 2, y + 2, z + 2}});
+    }
+    EXPECT_LE(most_work(deal_bricks(loads, 64).boxes, loads), most_work(even, loads));
+}
+
+/// Of all deals by cuts from face to face.
+std::uint64_t least_most_work(const BrickBox& box, std::size_t parts, const std::vector<BrickLoad>& loads) {
+    if (parts == 1) return most_work({box}, loads);
+    std::uint64_t least = most_work({box}, loads);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::int32_t at = box.low[axis] + 1; at < box.high[axis]; ++at) {
+            BrickBox low = box, high = box;
+            low.high[axis] = high.low[axis] = at;
+            for (std::size_t below = 1; below < parts; ++below)
+                least = std::min(
+                    least, std::max(least_most_work(low, below, loads), least_most_work(high, parts - below, loads)));
+        }
+    return least;
+}
+
+TEST(DealBricks, GivesThePartWithMostWorkTheLeastOfAllCuts) {
+    std::mt19937 random(8);
+    double dealt = 0.0, least = 0.0;
+    for (int i = 0; i < 8; ++i) {
+        std::vector<BrickLoad> loads;
+        for (int b = 0; b < 12; ++b) {
+            const auto place = [&random](unsigned edge) { return static_cast<std::int32_t>(random() % edge); };
+            loads.push_back({{place(4), place(3), place(2)},
+                             0,
+                             static_cast<std::uint32_t>(random() % 1000),
+                             static_cast<std::uint32_t>(random() % 5000)});
+        }
+        for (const std::size_t parts : {2U, 3U, 4U}) {
+            const std::uint64_t best = least_most_work({{0, 0, 0}, {4, 3, 2}}, parts, loads);
+            const std::uint64_t mine = most_work(deal_bricks(loads, parts).boxes, loads);
+            EXPECT_GE(mine, best);
+            if (parts == 2) {
+                EXPECT_EQ(mine, best);
+            }
+            dealt += static_cast<double>(mine);
+            least += static_cast<double>(best);
+        }
+    }
+    EXPECT_LT(dealt, 1.02 * least);
 }
 
 TEST(DealBricks, GivesFewerParticlesToAPartWithManyTriangles) {
     // A row of water, of which the last bricks are drops: little water with much surface.
     std::vector<BrickLoad> loads;
     loads.reserve(12);
-    for (std::int32_t x = 0; x < 12; ++x) loads.push_back({{x, 0, 0}, 0, x < 8 ? 1000U : 10U, x < 8 ? 0U : 10000U});
+    for (std::int32_t x = 0; x < 12; ++x) loads.push_back({{x, 0, 0}, 0, x < 8 ? 1000U : 10U, x < 8 ? 0U : 14000U});
     const std::vector<BrickBox> boxes = deal_bricks(loads, 2).boxes;
     EXPECT_EQ(boxes[0].high[0], 8);
 }
