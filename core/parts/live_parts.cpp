@@ -1,7 +1,9 @@
-// Frames one after the other: one is made while the simulation goes on.
+// Frames one after the other, while the simulation goes on: one is prepared while that before it is made.
 #include "meniscus/live_parts.hpp"
 
 #include <algorithm>
+#include <exception>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,16 +33,26 @@ public:
             ++dropped_;
             return false;
         }
-        begin(given, {index, simulation_time});
+        take(given, {index, simulation_time});
         return true;
     }
 
     void finish() {
         std::string failed;
+        std::exception_ptr error;
         come_to_rest(failed);
-        settle(true);
-        work(Making::nothing);
-        come_to_rest(failed);
+        // The frame that is being made, then the one that was taken after it.
+        while (begun_ || taken_ || settled_) {
+            try {
+                settle(true);
+                bring();
+            } catch (...) {
+                if (!error) error = std::current_exception();
+            }
+            work();
+            come_to_rest(failed);
+        }
+        if (error) std::rethrow_exception(error);
         if (!failed.empty()) throw PublishingFailed(failed);
     }
 
@@ -104,13 +116,14 @@ private:
         throw PublishingFailed(what);
     }
 
-    /// Whether the frame that was begun, if there is one, has equal seams. waits: until it has; else its parts are made
-    /// again meanwhile.
+    /// Whether the frame that is being made, if there is one, has equal seams. waits: until it has; else its parts are
+    /// made again meanwhile.
     bool settle(bool waits) {
         if (!begun_) return true;
         try {
             while (parts_.go_on()) {
-                work(Making::again);
+                making_ = Making::again;
+                work();
                 if (!waits) return false;
                 worker_.wait();
             }
@@ -122,33 +135,55 @@ private:
         return true;
     }
 
-    void begin(const FrameGiver& given, const Frame& frame) {
+    /// The frame that was taken, if there is one, is to be made now.
+    void bring() {
+        const std::optional<Frame> frame = std::exchange(taken_, std::nullopt);
+        if (!frame) return;
+        parts_.bring();
+        begun_ = frame;
+        making_ = Making::anew;
+    }
+
+    void take(const FrameGiver& given, const Frame& frame) {
         try {
+            bring();
             parts_.begin(given);
+            taken_ = frame;
+            is_to_prepare_ = policy_ == LivePolicy::latest;
+            if (!is_to_prepare_) {
+                // Where the simulation waits for surfaces, they come the sooner.
+                parts_.prepare();
+                bring();
+            }
         } catch (...) {
-            work(Making::nothing);
+            work();
             throw;
         }
-        begun_ = frame;
-        work(Making::anew);
+        work();
     }
 
     enum class Making { nothing, again, anew };
 
-    /// Publishes the frame that has settled, if there is one; then makes.
-    void work(Making making) {
+    /// Publishes the frame that has settled, if there is one; makes, then prepares what is to be.
+    void work() {
         const std::optional<Frame> frame = std::exchange(settled_, std::nullopt);
-        if (!is_maker_ || (!frame && making == Making::nothing)) return;
-        worker_.start([this, frame, making] {
-            if (frame) publish(*frame);
-            if (making == Making::nothing) return;
-            if (making == Making::anew) has_part_ = false;
-            parts_.make([this](const FinishedPart& part) {
-                made_.part = part.number;
-                std::swap(made_.mesh, part.mesh);
-                made_.statistics = part.statistics;
-                has_part_ = true;
-            });
+        const Making making = std::exchange(making_, Making::nothing);
+        const bool prepares = std::exchange(is_to_prepare_, false);
+        if (!prepares && (!is_maker_ || (!frame && making == Making::nothing))) return;
+        worker_.start([this, frame, making, prepares] {
+            if (is_maker_ && frame) publish(*frame);
+            if (is_maker_ && making != Making::nothing) make(making);
+            if (prepares) parts_.prepare();
+        });
+    }
+
+    void make(Making making) noexcept {
+        if (making == Making::anew) has_part_ = false;
+        parts_.make([this](const FinishedPart& part) {
+            made_.part = part.number;
+            std::swap(made_.mesh, part.mesh);
+            made_.statistics = part.statistics;
+            has_part_ = true;
         });
     }
 
@@ -187,8 +222,11 @@ private:
     Agreement agreement_;
     std::optional<std::uint64_t> last_index_;
     std::uint64_t dropped_ = 0;
+    std::optional<Frame> taken_;    ///< its particles are here
     std::optional<Frame> begun_;    ///< is being made
     std::optional<Frame> settled_;  ///< is to be published
+    Making making_ = Making::nothing;
+    bool is_to_prepare_ = false;  ///< the frame that was taken
     // The worker's, while it is at work:
     MadeMesh made_;
     bool has_part_ = false;  ///< whether it is of the frame

@@ -53,6 +53,8 @@ public:
         else
             copy([size] { return size; });
     }
+    /// Without a count.
+    void add_bytes(std::span<const std::byte> bytes) { add_bytes(bytes.data(), bytes.size()); }
     void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
     void add_text(std::string_view text) { add_all(std::span<const char>(text)); }
     std::vector<std::byte> take() {
@@ -80,8 +82,20 @@ private:
 class MessageReader {
 public:
     explicit MessageReader(std::span<const std::byte> bytes) : left_(bytes) {}
+    [[noreturn]] static void refuse() {
+        throw InvalidInput(
+            "a process has sent a message that ends too early: all processes of a frame must run the same version");
+    }
     bool is_at_end() const { return left_.empty(); }
+    std::size_t bytes_left() const { return left_.size(); }
 
+    /// They live as long as the message.
+    std::span<const std::byte> get_bytes(std::size_t count) {
+        if (count > left_.size()) refuse();
+        const std::span<const std::byte> bytes = left_.first(count);
+        left_ = left_.subspan(count);
+        return bytes;
+    }
     template <class T>
     T get() {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -105,10 +119,6 @@ public:
     }
 
 private:
-    [[noreturn]] static void refuse() {
-        throw InvalidInput(
-            "a process has sent a message that ends too early: all processes of a frame must run the same version");
-    }
     template <class T>
     void copy(T* to, std::size_t count) {
         if (count > left_.size() / sizeof(T)) refuse();

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "parts/message.hpp"
+#include "parts/packed_positions.hpp"
 
 namespace meniscus {
 
@@ -54,7 +55,7 @@ ParticleFrame PartParticles::keep(const HandedFrame& handed) {
 void PartParticles::add(std::span<const std::byte> message) {
     if (message.empty()) return;
     MessageReader reader(message);
-    reader.append_to(positions_);
+    append_positions(reader, positions_);
     reader.append_to(quantized_);
     reader.append_to(levels_);
     for (std::vector<std::byte>& array : arrays_) reader.append_to(array);

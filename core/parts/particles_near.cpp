@@ -8,6 +8,7 @@
 
 #include "particles/positions.hpp"
 #include "parts/message.hpp"
+#include "parts/packed_positions.hpp"
 
 namespace meniscus {
 namespace {
@@ -116,8 +117,9 @@ float first_number(const Holds& holds) {
 
 }  // namespace
 
-void ParticlesNear::begin(const ParticleFrame& frame) {
+void ParticlesNear::begin(const ParticleFrame& frame, double units_per_length) {
     frame_ = frame;
+    units_per_length_ = units_per_length;
     groups_.clear();
     for_each_group(frame, [this](auto numbers, std::size_t) { groups_.push_back(bounds_of(numbers)); });
     if (groups_.empty()) return;
@@ -182,9 +184,10 @@ std::vector<std::byte> ParticlesNear::within(const Box& box, std::vector<std::by
     const std::size_t count = are_all_in ? frame_.count() : chosen.size();
     if (count == 0) return message.take();
     // With the counts of the arrays, and the byte that Agreement adds.
-    std::size_t bytes = (frame_.arrays.size() + 3) * sizeof(std::uint64_t) + 1;
+    std::size_t bytes = (frame_.arrays.size() + 4) * sizeof(std::uint64_t) + 1;
     const auto each = [](const auto& values) { return values.empty() ? 0 : sizeof values[0]; };
-    bytes += count * (3 * (each(frame_.positions) + each(frame_.quantized)) + each(frame_.levels));
+    bytes += count * ((frame_.positions.empty() ? 0 : packed_position_bytes) + 3 * each(frame_.quantized) +
+                      each(frame_.levels));
     for (const ParticleArray& array : frame_.arrays) bytes += count * array.element_bytes();
     message.reserve(bytes);
     const auto add = [&](const auto& values, std::size_t of_each) {
@@ -193,7 +196,7 @@ std::vector<std::byte> ParticlesNear::within(const Box& box, std::vector<std::by
         else
             message.add_some(values, of_each, chosen);
     };
-    add(frame_.positions, 3);
+    add_positions(message, frame_.positions, chosen, units_per_length_);
     add(frame_.quantized, 3);
     add(frame_.levels, 1);
     for (const ParticleArray& array : frame_.arrays) add(array.data, array.element_bytes());

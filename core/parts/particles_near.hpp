@@ -20,8 +20,8 @@ struct NumberBounds {
 /// Chooses particles of a frame by the places that their positions decode to. Keeps its memory from frame to frame.
 class ParticlesNear {
 public:
-    /// frame: valid; borrowed until the next one begins.
-    void begin(const ParticleFrame& frame);
+    /// frame: valid; borrowed until the next one begins. units_per_length: of the lattice to which it will be snapped.
+    void begin(const ParticleFrame& frame, double units_per_length);
     /// Those within a closed box, world units, as a message. memory: of a message before.
     std::vector<std::byte> within(const Box& box, std::vector<std::byte> memory);
 
@@ -31,6 +31,7 @@ private:
     std::span<const std::uint32_t> places_within(const NumberBounds& box);
 
     ParticleFrame frame_;
+    double units_per_length_ = 0.0;
     NumberBounds all_;
     std::vector<NumberBounds> groups_;  ///< of successive particles: those of a simulation lie together as a rule
     std::vector<std::uint32_t> places_;

@@ -18,10 +18,10 @@
 #include "parts/agreement.hpp"
 #include "parts/brick_deal.hpp"
 #include "parts/contacts.hpp"
+#include "parts/dealt_frame.hpp"
 #include "parts/frame_facts.hpp"
 #include "parts/made_part.hpp"
 #include "parts/part_particles.hpp"
-#include "parts/particles_near.hpp"
 #include "parts/parts_told.hpp"
 #include "steps/fill_cracks/volume.hpp"
 
@@ -30,7 +30,7 @@ namespace {
 
 /// Of a process beside a simulation, which are looked at for the deal: it has one part at most, and the parts' shares
 /// are even to some percent.
-constexpr std::size_t particles_for_deal = 8192;
+constexpr std::size_t particles_for_deal = 1024;
 /// Bricks with surface of such a process, likewise.
 constexpr std::size_t bricks_for_deal = 8192;
 
@@ -47,6 +47,7 @@ public:
     Impl(const Settings& settings, const BackendOptions& backend, const PartsOptions& options, PartExchange& exchange)
         : settings_(settings), options_(options), agreement_(exchange), choice_(settings) {
         validate(settings);
+        units_per_length_ = units_per_cell / world_cell_size(settings);
         deal_bricks({}, options.parts);
         FramePart part;
         part.overlap = options.overlap;
@@ -65,69 +66,83 @@ public:
     enum class Pace { at_once, beside_a_simulation };
 
     void begin(const FrameGiver& give, Pace pace) {
-        start_ = std::chrono::steady_clock::now();
         pace_ = pace;
-        const auto of_ranks = agreement_.gather([&] {
+        coming_.start = std::chrono::steady_clock::now();
+        coming_.told = agreement_.gather([&] {
             HandedFrame handed = give();
             // As a Reconstructor does, which passes over arrays that the frames before did not bring.
             validate_lengths(handed.frame);
             const std::vector<ParticleArray> chosen = choice_.of(handed.frame);
             handed.frame.sent = nullptr;
             handed.frame.arrays = chosen;
-            mine_ = kept_.keep(handed);
-            validate_places(mine_, settings_);
-            near_.begin(mine_);
-            return packed(facts_of(mine_));
+            coming_.mine = coming_.kept.keep(handed);
+            validate_places(coming_.mine, settings_);
+            return packed(facts_of(coming_.mine));
         });
-        bring([&] {
-            facts_ = facts_together(of_ranks);
+        try {
+            coming_error_ = nullptr;
+            coming_.facts = facts_together(coming_.told);
             // All processes hold the next frames against the same arrays, also one that has brought none.
-            choice_.keep(facts_.form.without_values());
-            BrickDeal deal = deal_bricks(std::move(facts_.loads), options_.parts);
-            rank_of_ = deal_parts(deal, options_.makers);
-            own_ = std::move(deal.boxes);
-            overlaps_.assign(own_.size(), options_.overlap);
-            told_ = {};
-            borders_.clear();
-            making_.clear();
-            report_ = {};
-            error_ = nullptr;
-            wanted_.resize(own_.size());
-            std::iota(wanted_.begin(), wanted_.end(), std::size_t{0});
-            deal_turns();
-        });
+            choice_.keep(coming_.facts.form.without_values());
+        } catch (const InvalidInput&) {
+            throw;  // by all: they have the same facts
+        } catch (...) {
+            coming_error_ = std::current_exception();
+        }
+    }
+
+    void prepare() noexcept {
+        if (coming_error_) return;
+        try {
+            coming_.deal(options_);
+            coming_.write_first(settings_, units_per_length_);
+        } catch (...) {
+            coming_error_ = std::current_exception();
+        }
+    }
+
+    void bring() {
+        std::swap(frame_, coming_);
+        told_ = {};
+        borders_.clear();
+        making_.clear();
+        report_ = {};
+        error_ = std::exchange(coming_error_, nullptr);
+        send([this] { rethrow_error(); });
     }
 
     void make(const PartSink& sink) noexcept {
-        if (turn_ >= mine_to_make_.size()) return;
+        const std::size_t* const number = frame_.part_of(agreement_.rank());
+        if (number == nullptr) return;
         try {
             // Here, for it goes through all particles; where one process has them all.
-            if (agreement_.ranks() == 1 && turn_ == 0 && report_.parts_made == 0)
-                wrong_radius_ = find_wrong_radius(PlacedFrame(mine_), settings_);
-            particles_.begin(facts_.form);
+            if (agreement_.ranks() == 1 && frame_.turn() == 0 && report_.parts_made == 0)
+                wrong_radius_ = find_wrong_radius(PlacedFrame(frame_.mine), settings_);
+            particles_.begin(frame_.facts.form);
             for (PartExchange::Bytes& bytes : from_) {
                 particles_.add(bytes);
                 // The frames of a simulation follow each other in the same memory: new pages cost more than copies.
                 // (`bytes = {}` would keep the memory.)
                 if (pace_ == Pace::at_once) PartExchange::Bytes().swap(bytes);
             }
-            make_one(mine_to_make_[turn_], particles_.frame(), sink);
+            make_one(*number, particles_.frame(), sink);
         } catch (...) {
             error_ = std::current_exception();
         }
     }
 
     bool go_on() {
-        ++turn_;
-        if (turn_ == turns_) {
+        if (!frame_.begin_next_turn()) {
             std::vector<PartExchange::Bytes> told = compare();
-            if (wanted_.empty()) {
+            if (frame_.wanted().empty()) {
                 finish(std::move(told));
                 return false;
             }
-            deal_turns();
         }
-        bring([&] { rethrow_error(); });
+        send([this] {
+            rethrow_error();
+            frame_.write(settings_);
+        });
         return true;
     }
 
@@ -169,46 +184,21 @@ private:
         return facts;
     }
 
-    /// One part of each process at a time: of the particles near it there is one copy beside the frame.
-    void deal_turns() {
-        of_rank_.assign(agreement_.ranks(), {});
-        turns_ = 0;
-        for (const std::size_t part : wanted_) {
-            std::vector<std::size_t>& its = of_rank_[rank_of_[part]];
-            its.push_back(part);
-            turns_ = std::max(turns_, its.size());
-        }
-        mine_to_make_ = of_rank_[agreement_.rank()];
-        turn_ = 0;
-    }
-
     /// prepare: what this process does before, and may throw.
     template <class Prepare>
-    void bring(const Prepare& prepare) {
-        agreement_.all_to_all(to_, from_, [&] {
-            prepare();
-            to_.resize(agreement_.ranks());
-            for (std::size_t rank = 0; rank < to_.size(); ++rank) {
-                if (turn_ < of_rank_[rank].size())
-                    to_[rank] = near_.within(reach_of(part(of_rank_[rank][turn_]), settings_, facts_.coarsest_level()),
-                                             std::move(to_[rank]));
-                else
-                    to_[rank].clear();
-            }
-        });
-        if (pace_ == Pace::at_once) to_.clear();
+    void send(const Prepare& prepare) {
+        agreement_.all_to_all(frame_.messages(), from_, prepare);
+        if (pace_ == Pace::at_once) frame_.messages().clear();
     }
 
-    FramePart part(std::size_t number) const { return {own_[number], overlaps_[number], facts_.ranges}; }
-
     void make_one(std::size_t number, const ParticleFrame& particles, const PartSink& sink) {
-        const FramePart its = part(number);
+        const FramePart its = frame_.part(number);
         const PartOutcome outcome = reconstructor_->reconstruct_part(particles, its, mesh_);
         const Statistics& statistics = reconstructor_->statistics();
         told_.take(number, MadePart(number, particles.count(), statistics, outcome), mesh_);
         // Where one process makes many parts, the largest decides its memory: those are dealt by particles alone.
         if (pace_ == Pace::beside_a_simulation) making_.insert_or_assign(number, surface_loads());
-        borders_.insert_or_assign(number, PartBorder(number, outcome.seams, mesh_, own_));
+        borders_.insert_or_assign(number, PartBorder(number, outcome.seams, mesh_, frame_.own()));
         report_.whole.peak_bytes = std::max(report_.whole.peak_bytes, statistics.peak_bytes);
         report_.whole.device_peak_bytes = std::max(report_.whole.device_peak_bytes, statistics.device_peak_bytes);
         report_.whole.backend = statistics.backend;
@@ -240,7 +230,7 @@ private:
         agreement_.all_to_all(to_touching_, from_touching_, [&] {
             rethrow_error();
             to_touching_.resize(agreement_.ranks());
-            write_contacts(borders_, rank_of_, to_touching_);
+            write_contacts(borders_, frame_.rank_of(), to_touching_);
         });
         std::vector<PartExchange::Bytes> told = agreement_.gather([&] {
             told_.take(compare_contacts(borders_, from_touching_));
@@ -249,19 +239,9 @@ private:
         agreement_.agree([&] {
             UnequalSeams unequal;
             for (const PartExchange::Bytes& message : told) PartsTold::add_unequal(message, unequal);
-            report_.parts_made += wanted_.size();
+            report_.parts_made += frame_.wanted().size();
             report_.unequal_seams += unequal.count;
-            wanted_ = std::move(unequal.parts);
-            std::sort(wanted_.begin(), wanted_.end());
-            wanted_.erase(std::unique(wanted_.begin(), wanted_.end()), wanted_.end());
-            for (const std::size_t part : wanted_) {
-                // Such a part has settled the whole frame.
-                if (overlaps_[part] == max_overlap)
-                    throw ProcessFailed("part " + std::to_string(part) +
-                                        " fits to its neighbors at no overlap: all processes of a frame must run the "
-                                        "same version with the same settings");
-                overlaps_[part] = std::min(2 * overlaps_[part], max_overlap);
-            }
+            frame_.make_again(std::move(unequal.parts));
         });
         return told;
     }
@@ -270,11 +250,11 @@ private:
     void finish(std::vector<PartExchange::Bytes> told) {
         // A part that could not be made would seem to be no work: only finished frames count.
         surfaces_.swap(making_);
-        report_.greatest_overlap = *std::max_element(overlaps_.begin(), overlaps_.end());
+        report_.greatest_overlap = frame_.greatest_overlap();
         Statistics& whole = report_.whole;
-        whole.particles = facts_.particles();
-        whole.particle_volume = volume_of(facts_.by_level, settings_);
-        whole.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        whole.particles = frame_.facts.particles();
+        whole.particle_volume = volume_of(frame_.facts.by_level, settings_);
+        whole.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - frame_.start).count();
         if (agreement_.ranks() == 1) whole.warnings = warnings_here();
         finished_ = {std::move(report_), std::move(told)};
     }
@@ -286,28 +266,25 @@ private:
         for (const std::uint64_t triangles : sum.triangles_by_level) figures.triangles += triangles;
         figures.spray_particles = sum.spray_particles;
         find_warnings(
-            PlacedFrame(mine_), facts_.by_level, settings_, wrong_radius_, [&] { return sum.greatest_sample; },
-            figures);
+            PlacedFrame(frame_.mine), frame_.facts.by_level, settings_, wrong_radius_,
+            [&] { return sum.greatest_sample; }, figures);
         return std::move(figures.warnings);
     }
 
     Settings settings_;
+    double units_per_length_ = 0.0;
     PartsOptions options_;
     Agreement agreement_;
     AttributeChoice choice_;
     std::optional<Reconstructor> reconstructor_;  ///< of a maker
     Mesh mesh_;
 
-    // Of the frame that has begun:
-    std::chrono::steady_clock::time_point start_;
-    PartParticles kept_;
-    ParticleFrame mine_;  ///< borrows from the caller, and from what is kept
     Pace pace_ = Pace::at_once;
-    ParticlesNear near_;
-    FrameFacts facts_;
-    std::vector<BrickBox> own_;
-    std::vector<std::size_t> rank_of_;  ///< that makes each part
-    std::vector<std::uint32_t> overlaps_;
+
+    DealtFrame coming_;                ///< has begun
+    std::exception_ptr coming_error_;  ///< of this process, of this frame
+    // Of the frame that has been brought:
+    DealtFrame frame_;
     std::optional<Warning> wrong_radius_;
     PartsReport report_;                                            ///< without what is summed up of the parts
     PartsTold told_;                                                ///< by this process
@@ -315,14 +292,9 @@ private:
     std::map<std::size_t, std::vector<BrickLoad>> surfaces_;        ///< the last finished frame's, for the next deal
     Borders borders_;                                               ///< of its parts
     std::vector<PartExchange::Bytes> to_touching_, from_touching_;  ///< of these, to the parts beyond
-    // Of the round:
-    std::vector<std::size_t> wanted_;  ///< the parts to make, in all processes
-    std::vector<std::vector<std::size_t>> of_rank_;
-    std::vector<std::size_t> mine_to_make_;
-    std::size_t turns_ = 0, turn_ = 0;
-    std::vector<PartExchange::Bytes> to_, from_;  ///< the particles for this turn's parts
+    std::vector<PartExchange::Bytes> from_;                         ///< the particles for this turn's part
     PartParticles particles_;
-    std::exception_ptr error_;  ///< of make()
+    std::exception_ptr error_;  ///< of this process
 
     /// Of the frame that has ended last:
     struct {
@@ -338,6 +310,8 @@ PartsReconstructor::~PartsReconstructor() = default;
 
 PartsReport PartsReconstructor::reconstruct(const ParticleFrame& mine, const PartSink& sink) {
     impl_->begin([&mine] { return HandedFrame(mine, true, true); }, Impl::Pace::at_once);
+    prepare();
+    bring();
     do make(sink);
     while (go_on());
     return report();
@@ -345,6 +319,14 @@ PartsReport PartsReconstructor::reconstruct(const ParticleFrame& mine, const Par
 
 void PartsReconstructor::begin(const FrameGiver& mine) {
     impl_->begin(mine, Impl::Pace::beside_a_simulation);
+}
+
+void PartsReconstructor::prepare() noexcept {
+    impl_->prepare();
+}
+
+void PartsReconstructor::bring() {
+    impl_->bring();
 }
 
 void PartsReconstructor::make(const PartSink& sink) noexcept {

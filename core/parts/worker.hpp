@@ -5,6 +5,7 @@
 #include <functional>
 #include <mutex>
 #include <stop_token>
+#include <system_error>
 #include <thread>
 
 namespace meniscus {
@@ -14,12 +15,11 @@ public:
     /// Does what has begun, and ends.
     ~Worker() { wait(); }
 
-    /// work: must throw nothing. Nothing else is being done.
+    /// work: must throw nothing. Nothing else is being done. Where the system refuses a thread, it is done by the
+    /// caller's.
     void start(std::function<void()> work) {
+        if (!has_thread()) return work();
         const std::lock_guard lock(mutex_);
-        // With the first work: a process that never has any needs no thread. Where the system refuses it, nothing is
-        // done.
-        if (!thread_.joinable()) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
         work_ = std::move(work);
         changed_.notify_all();
     }
@@ -33,6 +33,15 @@ public:
     }
 
 private:
+    /// From the first work on: a process that never has any needs none.
+    bool has_thread() {
+        try {
+            if (!thread_.joinable()) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+            return true;
+        } catch (const std::system_error&) {
+            return false;
+        }
+    }
     void run(const std::stop_token& stop) {
         std::unique_lock lock(mutex_);
         while (changed_.wait(lock, stop, [this] { return static_cast<bool>(work_); })) {

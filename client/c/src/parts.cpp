@@ -1,3 +1,5 @@
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 
@@ -11,7 +13,8 @@ using namespace meniscus::c;
 
 struct meniscus_parts {
     RankExchange exchange;
-    FrameBuffers buffers;
+    std::array<FrameBuffers, 2> buffers;  ///< of the last two frames, in turn
+    std::size_t next_buffers = 0;
     std::optional<meniscus::ranks::PartsJob> job;  ///< goes first: it borrows from the buffers
 
     explicit meniscus_parts(const meniscus_exchange* ranks) : exchange(ranks) {}
@@ -33,7 +36,10 @@ meniscus_result meniscus_parts_push(meniscus_parts* parts, const meniscus_partic
                                     double time) {
     return guarded([&] {
         meniscus_parts& pushed = required(parts, "parts");
-        const auto frame = [&] { return read_frame(particles, pushed.buffers); };
+        const auto frame = [&] {
+            pushed.next_buffers = 1 - pushed.next_buffers;
+            return read_frame(particles, pushed.buffers[pushed.next_buffers]);
+        };
         return pushed.job->push(frame, step, time) ? MENISCUS_OK : MENISCUS_WOULD_WAIT;
     });
 }

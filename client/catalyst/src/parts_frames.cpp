@@ -57,8 +57,8 @@ void PartsFrames::push(const meniscus_particles* particles, std::uint64_t index,
     const meniscus_result result = meniscus_parts_push(parts_, particles, index, simulation_time);
     if (result == MENISCUS_OK) {
         count_sent();
-        // A frame is published after the next push, and what then fails is told by the one after that.
-        if (is_said_away() && ++taken_since_ == 3) say_surfaces_go();
+        // A frame is published after two more pushes, and what then fails is told by the one after them.
+        if (is_said_away() && ++taken_since_ == 4) say_surfaces_go();
         return;
     }
     count_left_out(is_said_away() || is_away(result));

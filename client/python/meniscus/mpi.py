@@ -104,13 +104,14 @@ class Parts:
         levels: Optional[ArrayLike] = None,
         attributes: Optional[Mapping[str, ArrayLike]] = None,
     ) -> bool:
-        """Takes the particles that this rank owns, none or many, each on one rank; returns when they are copied and
-        sent. False: the frame is left out, on all ranks.
+        """Takes the particles that this rank owns, none or many, each on one rank; returns when they are copied. The
+        next call but one publishes the frame, with the policy "every-frame" the next one, or finish(). False: the frame
+        is left out, on all ranks.
 
         The arrays are those of Reconstructor.reconstruct(). ``time`` and ``index`` are the same on all ranks; index is
         greater than the one before, and None is the one after it, from 0.
 
-        Raises InvalidInput, LimitExceeded, ServerError or Error, on all ranks alike, also for the frame before; the
+        Raises InvalidInput, LimitExceeded, ServerError or Error, on all ranks alike, also for the frames before; the
         next frame may come. A server that is away raises ServerError (unavailable) once for each attempt to reach it
         again, and files that cannot be written Error; frames are left out meanwhile.
         """

@@ -29,12 +29,13 @@ struct LivePart {
     const PartsReport& report;  ///< the whole frame's
 };
 
-/// Shows frames. Its functions are called in makers, on one thread at a time, which is not the caller's of push().
+/// Shows frames. Its functions are called in makers, on one thread at a time, which is the caller's of push() only
+/// where the system refuses another.
 class LivePublisher {
 public:
     virtual ~LivePublisher() = default;
-    /// The frame is there when all makers have published their part of it. What is thrown is told by the next push(),
-    /// in all processes.
+    /// The frame is there when all makers have published their part of it. What is thrown is told by a push() that
+    /// follows, in all processes.
     virtual void publish(const LivePart& part) = 0;
     /// The publisher of some maker has failed: closes what is open.
     virtual void abandon() noexcept = 0;
@@ -55,7 +56,9 @@ public:
 /// One in each process of an exchange, each with the same settings and options. All functions are called by all
 /// processes together, in the same order; the exchange is used in them alone, on the thread that calls.
 ///
-/// A frame's seams are compared in the push() after it, or in finish(): its parts are published then.
+/// A frame's particles are copied by the push() that brings it. With `latest` they go to those that make its parts in
+/// the push() after that, for which each process's thread chooses them meanwhile; with `every_frame` at once. A frame's
+/// seams are compared in the push() after its particles have gone, and it is published then. finish() does the same.
 class LiveParts {
 public:
     /// exchange, publisher: must stay. options: as many parts as makers. Throws as PartsReconstructor.
@@ -69,14 +72,14 @@ public:
     /// of them.
     ///
     /// An error of one process is thrown by all, with its rank: InvalidInput for particles, an index or a time that
-    /// cannot be, and errors of the frame before, PublishingFailed among them. This frame is then left out, and the
+    /// cannot be, and errors of the frames before, PublishingFailed among them. This frame is then left out, and the
     /// next may come.
     bool push(const FrameGiver& mine, std::uint64_t index, double simulation_time);
     bool push(const ParticleFrame& mine, std::uint64_t index, double simulation_time) {
         return push([&mine] { return mine; }, index, simulation_time);
     }
-    /// Waits until all that was pushed has been published. Throws likewise; the last frame is published also where that
-    /// before it has failed.
+    /// Waits until all that was pushed has been published. Throws likewise, the first error of frames that fail; the
+    /// others are published all the same.
     void finish();
     /// The least that the next frame may have, the same in all processes.
     std::uint64_t next_index() const;

@@ -60,8 +60,8 @@ struct FinishedPart {
     const Statistics& statistics;
 };
 using PartSink = std::function<void(const FinishedPart&)>;
-/// A frame that stays for the time of the call; by itself nothing of it does longer. What stays until the next frame is
-/// asked for is not copied.
+/// A frame that stays for the time of the call; by itself nothing of it does longer. What stays until the next frame
+/// but one is asked for is not copied.
 struct HandedFrame {
     ParticleFrame frame;
     bool positions_stay = false;
@@ -107,12 +107,17 @@ public:
     /// encoding.
     PartsReport reconstruct(const ParticleFrame& mine, const PartSink& sink);
 
-    // The same in steps, which may lie apart in time: begin(), then make() and go_on() in turn until there is nothing
-    // to make. All processes call begin() and go_on() together, one after the other; make() is each one's own, and any
-    // thread's.
+    // The same in steps, which may lie apart in time: begin(), prepare() and bring(), then make() and go_on() in turn
+    // until there is nothing to make. All processes call begin(), bring() and go_on() together, one after the other;
+    // prepare() and make() are each one's own, and any thread's, one at a time. A frame may be begun and prepared while
+    // the one before it is made.
 
-    /// Copies the particles that do not stay, and brings the first ones to those that make parts of them.
+    /// Copies the particles that do not stay.
     void begin(const FrameGiver& mine);
+    /// Deals bricks to parts, and chooses the particles for each. What goes wrong is thrown by bring().
+    void prepare() noexcept;
+    /// Brings the first particles to those that make parts of them. The frame before must have ended.
+    void bring();
     /// Makes a part of these particles, if this process has one to make now. What goes wrong is thrown by go_on().
     void make(const PartSink& sink) noexcept;
     /// Brings the particles for more parts, and returns true; once all are made and their seams are equal, false.

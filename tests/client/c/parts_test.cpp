@@ -112,10 +112,11 @@ TEST_F(CParts, HaveAttributesRoundedOverOneRange) {
         particles.arrays = &array;
         particles.array_count = 1;
         EXPECT_EQ(meniscus_parts_push(parts, &particles, 0, 0.0), MENISCUS_OK) << meniscus_error_message();
-        // The frame is shown with the next one.
+        // The frame is shown once two more are taken.
         std::uint64_t step = 1;
-        while (meniscus_parts_push(parts, &particles, step++, 0.0) == MENISCUS_WOULD_WAIT) {
-        }
+        for (int i = 0; i < 2; ++i)
+            while (meniscus_parts_push(parts, &particles, step++, 0.0) == MENISCUS_WOULD_WAIT) {
+            }
         if (exchange.rank == 2) {
             CWatcher watcher;
             CFrame frame;

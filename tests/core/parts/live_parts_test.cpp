@@ -254,9 +254,10 @@ TEST(LiveParts, LeaveOutFramesOfAllWhileOneIsAtWork) {
             return parts.push(share_of(frame_of(i), i, exchange.rank(), 3).frame(), i, 0.0);
         };
         EXPECT_TRUE(push());
-        // The first frame is published once a second one is begun, however long the first takes.
-        while (!push()) {
-        }
+        // The first frame is published once two more are taken, however long the first takes.
+        for (int i = 0; i < 2; ++i)
+            while (!push()) {
+            }
         if (is_held) held.await();
         const std::uint64_t dropped = parts.dropped();
         for (int i = 0; i < 5; ++i) EXPECT_FALSE(push());
@@ -265,12 +266,68 @@ TEST(LiveParts, LeaveOutFramesOfAllWhileOneIsAtWork) {
         while (!push()) {
         }
         parts.finish();
-        EXPECT_EQ(parts.dropped() + 3, index);
+        EXPECT_EQ(parts.dropped() + 4, index);
     });
-    EXPECT_EQ(shown.frames().size(), 3U);
+    EXPECT_EQ(shown.frames().size(), 4U);
     for (const auto& [index, frame] : shown.frames()) {
         EXPECT_EQ(frame.publishers, 3U);
         expect_whole(settings_of_parts(), frame_of(index), frame);
+    }
+}
+
+// One is prepared while that before it is made, made again or fails.
+TEST(LiveParts, PublishEachFrameThatIsTakenWhateverBecomesOfOthers) {
+    constexpr std::size_t ranks = 3;
+    enum class Kind { splash, noise, refused, crowded };
+    std::map<std::uint64_t, test::Particles> taken;
+    std::uint64_t refusals = 0, failures = 0;
+    test::Particles crowd;
+    for (int i = 0; i < 60'000; ++i) crowd.add(1e-7F * static_cast<float>(i), 0.0F, 0.0F);
+    std::vector<test::Particles> frames;
+    std::vector<Kind> kinds;
+    std::mt19937 random(12);
+    for (unsigned i = 0; i < 24; ++i) {
+        const Kind kind = i < 4 ? static_cast<Kind>(i) : static_cast<Kind>(random() % 4);
+        kinds.push_back(kind);
+        frames.push_back(kind == Kind::noise     ? test::noise_cube(i, 1500, 0.4, 0.025)
+                         : kind == Kind::crowded ? crowd
+                                                 : test::splash(i, 8));
+        if (kind == Kind::refused) frames.back().positions[7] = INFINITY;
+    }
+    Shown shown;
+    test::on_ranks(ranks, [&](test::ThreadExchange& exchange) {
+        Publisher publisher(shown);
+        LiveParts parts(test::default_settings(), {Backend::cpu, 1, 0}, {.parts = 2, .overlap = 1, .makers = {0, 2}},
+                        LivePolicy::latest, exchange, publisher);
+        std::uint64_t index = 0;
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            const test::Particles mine = share_of(frames[i], i, exchange.rank(), ranks);
+            try {
+                while (!parts.push(mine.frame(), index, 0.0)) ++index;
+                if (exchange.rank() == 0 && kinds[i] != Kind::crowded) taken[index] = frames[i];
+            } catch (const InvalidInput&) {
+                EXPECT_EQ(kinds[i], Kind::refused);
+                if (exchange.rank() == 0) ++refusals;
+            } catch (const LimitExceeded&) {
+                if (exchange.rank() == 0) ++failures;
+            }
+            ++index;
+        }
+        try {
+            parts.finish();
+        } catch (const LimitExceeded&) {
+            if (exchange.rank() == 0) ++failures;
+        }
+    });
+    EXPECT_GT(refusals, 0U);
+    EXPECT_GT(failures, 0U);
+    EXPECT_GT(taken.size(), 5U);
+    std::set<std::uint64_t> expected;
+    for (const auto& [index, particles] : taken) expected.insert(index);
+    ASSERT_EQ(shown.indices(), expected);
+    for (const auto& [index, frame] : shown.frames()) {
+        EXPECT_EQ(frame.publishers, 2U);
+        expect_whole(test::default_settings(), taken.at(index), frame);
     }
 }
 

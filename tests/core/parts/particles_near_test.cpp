@@ -7,11 +7,15 @@
 #include <numeric>
 #include <random>
 
+#include "lattice/coordinates.hpp"
 #include "parts/part_particles.hpp"
 #include "support/particles.hpp"
 
 namespace meniscus {
 namespace {
+
+/// A cell is a hundredth of the cube's edge.
+constexpr double units_per_length = 100.0 * units_per_cell;
 
 /// Particles in a cube of edge 1, or in rows along x; each has its number as an attribute.
 struct Numbered {
@@ -82,7 +86,7 @@ TEST(ParticlesNear, AreThoseWithinTheBox) {
         for (const bool is_quantized : {false, true})
             for (const bool in_rows : {false, true}) {
                 const Numbered particles(count, static_cast<unsigned>(count), in_rows, is_quantized);
-                near.begin(particles.frame);
+                near.begin(particles.frame, units_per_length);
                 for (int i = 0; i < 50; ++i) {
                     const Box box = random_box(particles, random);
                     message = near.within(box, std::move(message));
@@ -101,7 +105,8 @@ TEST(ParticlesNear, AreThoseWithinTheBox) {
                             if (is_quantized)
                                 ASSERT_EQ(got.quantized[3 * at + axis], particles.quantized[3 * p + axis]);
                             else
-                                ASSERT_EQ(got.positions[3 * at + axis], particles.positions[3 * p + axis]);
+                                ASSERT_EQ(snap(got.positions[3 * at + axis], units_per_length),
+                                          snap(particles.positions[3 * p + axis], units_per_length));
                         }
                         ++at;
                     }
@@ -118,7 +123,7 @@ TEST(ParticlesNear, AreFoundBeyondFloat32) {
     frame.quantized = quantized;
     frame.quantization_box = {{-1e45, -1e45, -1e45}, {1e45, 1e45, 1e45}};
     ParticlesNear near;
-    near.begin(frame);
+    near.begin(frame, 1.0);
     PartParticles part;
     part.begin(FrameForm(frame));
     part.add(near.within({{1e44, 1e44, 1e44}, {9e44, 9e44, 9e44}}, {}));
@@ -127,7 +132,7 @@ TEST(ParticlesNear, AreFoundBeyondFloat32) {
 
 TEST(ParticlesNear, AreNoneOfNone) {
     ParticlesNear near;
-    near.begin({});
+    near.begin({}, 1.0);
     EXPECT_TRUE(near.within({{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}}, {}).empty());
 }
 

@@ -23,7 +23,10 @@ public:
     void all_to_all(std::vector<Bytes>& to, std::vector<Bytes>& from) override {
         from.resize(ranks());
         meeting_.meet(rank_, &to, [&](std::size_t rank, const void* its) {
-            from[rank] = (*static_cast<const std::vector<Bytes>*>(its))[rank_];
+            if (rank == rank_)
+                from[rank].swap(to[rank]);
+            else
+                from[rank] = (*static_cast<const std::vector<Bytes>*>(its))[rank_];
         });
     }
 

@@ -380,9 +380,10 @@ typedef struct meniscus_exchange {
 MENISCUS_API meniscus_result meniscus_parts_open(const meniscus_exchange* exchange, const meniscus_options* options,
                                                  meniscus_parts** parts);
 /* Called by all ranks together. particles: those that this rank owns, wherever they are, also none; each particle of
- * the frame is owned by one rank. They are copied and brought to the ranks that reconstruct, whose threads do that
- * after the call has returned. A frame is published during the push after it, once the parts' surfaces are known to
- * meet. step and time: of the frame, the same in all ranks; step is greater than the one before.
+ * the frame is owned by one rank. They are copied and brought to the ranks that reconstruct: with the policy
+ * every-frame by this push, with latest by the next one, for which threads choose them meanwhile. Threads reconstruct
+ * between the calls. The push after that publishes the frame, once the parts' surfaces are known to meet. step and
+ * time: of the frame, the same in all ranks; step is greater than the one before.
  *
  * MENISCUS_WOULD_WAIT: the frame is left out, by all ranks. An error: it is left out, too, and the next may be pushed.
  * While the server is away frames are left out; that is told once, as MENISCUS_UNAVAILABLE, and once for each attempt

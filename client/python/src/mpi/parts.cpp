@@ -1,5 +1,7 @@
 // The class _meniscus.Parts: frames of a job's ranks.
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <limits>
@@ -92,11 +94,13 @@ public:
             without_lock([&] {
                 is_taken = job_->push(
                     [&] {
+                        next_frame_ = 1 - next_frame_;
+                        OwnedFrame& owned = frames_[next_frame_];
                         with_lock([&] {
                             const py::tuple arrays = arrays_of(frame);
-                            frame_.take(given_frame(arrays[0], arrays[1], arrays[2]));
+                            owned.take(given_frame(arrays[0], arrays[1], arrays[2]));
                         });
-                        return HandedFrame(frame_.frame(), true, true);
+                        return HandedFrame(owned.frame(), true, true);
                     },
                     place.index, place.time);
             });
@@ -118,7 +122,8 @@ public:
 private:
     py::object ranks_;
     RankExchange exchange_;
-    OwnedFrame frame_;
+    std::array<OwnedFrame, 2> frames_;  ///< the last two, in turn
+    std::size_t next_frame_ = 0;
     std::atomic_flag is_called_;
     std::optional<ranks::PartsJob> job_;  ///< goes first
 };
