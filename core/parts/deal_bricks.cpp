@@ -16,7 +16,8 @@
 namespace meniscus {
 namespace {
 
-/// Up to here a cut is chosen by what can be made of both of its sides; of more parts, by what each side has for each.
+/// Up to here a cut is chosen by what can be made of both of its sides, which may get any number of parts. More are cut
+/// into halves, by what each side has for each part.
 constexpr std::size_t searched_parts = 4;
 /// Cuts that are tried at most, the most promising ones first.
 constexpr std::size_t most_tried = 32;
@@ -109,15 +110,14 @@ struct PartCounts {
     std::size_t least = 1, most = 0;  ///< none if most is less
 };
 
-/// The numbers of parts that the lower side of a cut may get, so that none need be empty. share: of its work.
+/// The numbers of parts that the lower side of a cut may get. share: of its work.
 PartCounts counts_below(const Piece& piece, std::size_t bricks_below, double share) {
     const std::size_t parts = piece.parts, bricks_above = piece.own.size() - bricks_below;
-    if (piece.own.size() < parts) return {parts / 2, parts / 2};
-    // Neither gets less than an eighth, so that parts by the thousand are not dealt one by one. Such a cut there is: of
-    // more than four bricks a layer along one of the axes has three quarters at most.
-    const std::size_t fewest = std::max<std::size_t>(parts / 8, 1);
-    const std::size_t least = std::max(fewest, parts - std::min(bricks_above, parts));
-    const std::size_t most = std::min(parts - fewest, bricks_below);
+    // Halves of many parts stay the most compact.
+    if (parts > searched_parts || piece.own.size() < parts) return {parts / 2, parts / 2};
+    // So that no part need be empty.
+    const std::size_t least = std::max<std::size_t>(parts - std::min(bricks_above, parts), 1);
+    const std::size_t most = std::min(parts - 1, bricks_below);
     if (least > most) return {};
     const std::size_t even = std::clamp(static_cast<std::size_t>(static_cast<double>(parts) * share), least, most);
     return {even, std::min(even + 1, most)};
