@@ -27,26 +27,36 @@ struct Brick {
     BrickCoordinate at{};
     double work = 0.0;         ///< of the part whose it is
     double work_beside = 0.0;  ///< of each part that touches it, which gets its particles, too
+
+    void add(const Brick& o) {
+        work += o.work;
+        work_beside += o.work_beside;
+    }
 };
 using Bricks = std::vector<Brick>;
 
-/// By (z, y, x), so that sums do not depend on the order of the loads.
+/// Makes one of those that lie at one place.
+template <class T>
+void add_up(std::vector<T>& sorted) {
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+        if (sorted[i].at == sorted[last].at)
+            sorted[last].add(sorted[i]);
+        else
+            sorted[++last] = sorted[i];
+    sorted.resize(std::min(sorted.size(), last + 1));
+}
+
+/// Those with work, by (z, y, x), so that sums do not depend on the order of the loads.
 Bricks bricks_of(std::span<const BrickLoad> loads) {
     Bricks bricks;
     bricks.reserve(loads.size());
     for (const BrickLoad& load : loads)
-        bricks.push_back({load.brick, static_cast<double>(load.work()), static_cast<double>(load.work_beside())});
+        if (load.work() != 0)
+            bricks.push_back({load.brick, static_cast<double>(load.work()), static_cast<double>(load.work_beside())});
     const auto key = [](const Brick& b) { return brick_key({b.at[0], b.at[1], b.at[2]}); };
     std::sort(bricks.begin(), bricks.end(), [&](const Brick& a, const Brick& b) { return key(a) < key(b); });
-    std::size_t last = 0;
-    for (std::size_t i = 1; i < bricks.size(); ++i)
-        if (bricks[i].at == bricks[last].at) {
-            bricks[last].work += bricks[i].work;
-            bricks[last].work_beside += bricks[i].work_beside;
-        } else {
-            bricks[++last] = bricks[i];
-        }
-    bricks.resize(std::min(bricks.size(), last + 1));
+    add_up(bricks);
     return bricks;
 }
 
@@ -82,6 +92,13 @@ struct Layer {
     std::size_t bricks = 0;
     double work = 0.0, work_beside = 0.0;
     double around = 0.0;  ///< work_beside of those around the box
+
+    void add(const Layer& o) {
+        bricks += o.bricks;
+        work += o.work;
+        work_beside += o.work_beside;
+        around += o.around;
+    }
 };
 
 /// Ascending.
@@ -91,17 +108,7 @@ std::vector<Layer> layers_of(const Piece& piece, std::size_t axis) {
     for (const Brick& brick : piece.own) layers.push_back({brick.at[axis], 1, brick.work, brick.work_beside, 0.0});
     for (const Brick& brick : piece.around) layers.push_back({brick.at[axis], 0, 0.0, 0.0, brick.work_beside});
     std::sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.at < b.at; });
-    std::size_t last = 0;
-    for (std::size_t i = 1; i < layers.size(); ++i)
-        if (layers[i].at == layers[last].at) {
-            layers[last].bricks += layers[i].bricks;
-            layers[last].work += layers[i].work;
-            layers[last].work_beside += layers[i].work_beside;
-            layers[last].around += layers[i].around;
-        } else {
-            layers[++last] = layers[i];
-        }
-    layers.resize(std::min(layers.size(), last + 1));
+    add_up(layers);
     return layers;
 }
 
@@ -127,10 +134,7 @@ PartCounts counts_below(const Piece& piece, std::size_t bricks_below, double sha
 void add_cuts(const Piece& piece, std::size_t axis, std::vector<Cut>& cuts) {
     const std::vector<Layer> layers = layers_of(piece, axis);
     Layer all;
-    for (const Layer& layer : layers) {
-        all.work += layer.work;
-        all.around += layer.around;
-    }
+    for (const Layer& layer : layers) all.add(layer);
     Layer under;  // all below the place
     const auto add = [&](std::int32_t at, const Layer& below, const Layer& above) {
         if (at <= piece.box.low[axis] || at >= piece.box.high[axis]) return;
@@ -146,9 +150,7 @@ void add_cuts(const Piece& piece, std::size_t axis, std::vector<Cut>& cuts) {
         const std::int32_t at = layers[i].at;
         const bool is_after = i > 0 && layers[i - 1].at == at - 1;
         add(at, is_after ? layers[i - 1] : Layer{}, layers[i]);
-        under.bricks += layers[i].bricks;
-        under.work += layers[i].work;
-        under.around += layers[i].around;
+        under.add(layers[i]);
         // Above it, where the next one is empty.
         if (i + 1 == layers.size() || layers[i + 1].at != at + 1) add(at + 1, layers[i], {});
     }
