@@ -103,10 +103,15 @@ std::vector<ParticleArray> AttributeChoice::of(const ParticleFrame& frame) const
 
 void AttributeChoice::keep(std::span<const ParticleArray> chosen) {
     if (!forms_.empty()) return;
+    // All of them or none: processes that disagree would refuse each other's frames.
+    std::vector<Form> forms;
+    std::vector<std::string> names;
     for (const ParticleArray& array : chosen) {
-        forms_.push_back({std::string(array.name), array.type, array.components});
-        if (takes_all_) names_.push_back(forms_.back().name);
+        forms.push_back({std::string(array.name), array.type, array.components});
+        names.push_back(forms.back().name);
     }
+    forms_.swap(forms);
+    if (takes_all_) names_.swap(names);
 }
 
 void AttributeChoice::shape(Mesh& mesh, const std::shared_ptr<MemoryAccount>& account) const {

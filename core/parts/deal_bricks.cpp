@@ -16,11 +16,12 @@
 namespace meniscus {
 namespace {
 
-/// Up to here a cut is chosen by what can be made of both of its sides, which may get any number of parts. More are cut
-/// into halves, by what each side has for each part.
-constexpr std::size_t searched_parts = 4;
+/// Few parts of few bricks, of which a cut can miss much, are cut by what can be made of both sides, which may get any
+/// number of parts. Others are cut into halves, by what each side has for each part: many parts stay the most compact,
+/// and many bricks take long to search.
+constexpr std::size_t searched_parts = 4, searched_bricks = 512;
 /// Cuts that are tried at most, the most promising ones first.
-constexpr std::size_t most_tried = 32;
+constexpr std::size_t most_tried = 16;
 
 /// What all processes have in a brick.
 struct Brick {
@@ -67,6 +68,10 @@ struct Piece {
     std::size_t parts = 1;
 };
 
+bool is_searched(const Piece& piece) {
+    return piece.parts <= searched_parts && piece.parts <= piece.own.size() && piece.own.size() <= searched_bricks;
+}
+
 /// Without surface and particles there is nothing to do, whatever lies around.
 double cost_of(double work, double beside) {
     return work == 0.0 ? 0.0 : work + beside;
@@ -101,12 +106,30 @@ struct Layer {
     }
 };
 
-/// Ascending.
+/// Ascending; some may have nothing.
 std::vector<Layer> layers_of(const Piece& piece, std::size_t axis) {
     std::vector<Layer> layers;
     layers.reserve(piece.own.size() + piece.around.size());
-    for (const Brick& brick : piece.own) layers.push_back({brick.at[axis], 1, brick.work, brick.work_beside, 0.0});
-    for (const Brick& brick : piece.around) layers.push_back({brick.at[axis], 0, 0.0, 0.0, brick.work_beside});
+    std::int32_t first = std::numeric_limits<std::int32_t>::max(), last = std::numeric_limits<std::int32_t>::min();
+    for (const Bricks* const bricks : {&piece.own, &piece.around})
+        for (const Brick& brick : *bricks) {
+            first = std::min(first, brick.at[axis]);
+            last = std::max(last, brick.at[axis]);
+        }
+    const auto own_layer = [axis](const Brick& b) { return Layer{b.at[axis], 1, b.work, b.work_beside, 0.0}; };
+    const auto around_layer = [axis](const Brick& b) { return Layer{b.at[axis], 0, 0.0, 0.0, b.work_beside}; };
+    // A table where they lie close together: sorting takes longer than all else of the deal.
+    if (std::int64_t{last} - first < static_cast<std::int64_t>(piece.own.size())) {
+        for (std::int32_t at = first; at <= last; ++at) layers.push_back({at});
+        const auto layer_of = [&](const Brick& b) -> Layer& {
+            return layers[static_cast<std::size_t>(b.at[axis] - first)];
+        };
+        for (const Brick& brick : piece.own) layer_of(brick).add(own_layer(brick));
+        for (const Brick& brick : piece.around) layer_of(brick).add(around_layer(brick));
+        return layers;
+    }
+    for (const Brick& brick : piece.own) layers.push_back(own_layer(brick));
+    for (const Brick& brick : piece.around) layers.push_back(around_layer(brick));
     std::sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.at < b.at; });
     add_up(layers);
     return layers;
@@ -120,8 +143,7 @@ struct PartCounts {
 /// The numbers of parts that the lower side of a cut may get. share: of its work.
 PartCounts counts_below(const Piece& piece, std::size_t bricks_below, double share) {
     const std::size_t parts = piece.parts, bricks_above = piece.own.size() - bricks_below;
-    // Halves of many parts stay the most compact.
-    if (parts > searched_parts || piece.own.size() < parts) return {parts / 2, parts / 2};
+    if (!is_searched(piece)) return {parts / 2, parts / 2};
     // So that no part need be empty.
     const std::size_t least = std::max<std::size_t>(parts - std::min(bricks_above, parts), 1);
     const std::size_t most = std::min(parts - 1, bricks_below);
@@ -204,7 +226,7 @@ double most_work_of(const Piece& piece);
 /// The first of those whose part with most work has least.
 Cut best_cut(const Piece& piece, const std::vector<Cut>& cuts) {
     // Of two parts a cut's least is what they have.
-    if (piece.parts == 2 || piece.parts > searched_parts) return cuts.front();
+    if (piece.parts == 2 || !is_searched(piece)) return cuts.front();
     Cut best;
     best.least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < std::min(cuts.size(), most_tried) && cuts[i].least < best.least; ++i) {

@@ -78,6 +78,7 @@ private:
         std::vector<Presence> all;
         for (const PartExchange::Bytes& bytes : agreement_.gather([&] {
                  check();
+                 all.reserve(agreement_.ranks());
                  mine.is_at_work = !worker_.is_idle();
                  if (!mine.is_at_work) mine.failure = failure_;
                  mine.is_away = !mine.is_at_work && is_maker_ && !mine.ends && publisher_.is_away();
@@ -166,19 +167,21 @@ private:
 
     /// Publishes the frame that has settled, if there is one; makes, then prepares what is to be.
     void work() {
-        const std::optional<Frame> frame = std::exchange(settled_, std::nullopt);
-        const Making making = std::exchange(making_, Making::nothing);
-        const bool prepares = std::exchange(is_to_prepare_, false);
-        if (!prepares && (!is_maker_ || (!frame && making == Making::nothing))) return;
-        worker_.start([this, frame, making, prepares] {
-            if (is_maker_ && frame) publish(*frame);
-            if (is_maker_ && making != Making::nothing) make(making);
-            if (prepares) parts_.prepare();
+        if (!is_maker_) {
+            settled_.reset();
+            making_ = Making::nothing;
+        }
+        if (!is_to_prepare_ && !settled_ && making_ == Making::nothing) return;
+        // What is to be done is kept here: so much as a larger function could not be had without memory.
+        worker_.start([this] {
+            if (const std::optional<Frame> frame = std::exchange(settled_, std::nullopt)) publish(*frame);
+            if (making_ != Making::nothing) make();
+            if (std::exchange(is_to_prepare_, false)) parts_.prepare();
         });
     }
 
-    void make(Making making) noexcept {
-        if (making == Making::anew) has_part_ = false;
+    void make() noexcept {
+        if (std::exchange(making_, Making::nothing) == Making::anew) has_part_ = false;
         parts_.make([this](const FinishedPart& part) {
             made_.part = part.number;
             std::swap(made_.mesh, part.mesh);
@@ -222,12 +225,12 @@ private:
     Agreement agreement_;
     std::optional<std::uint64_t> last_index_;
     std::uint64_t dropped_ = 0;
-    std::optional<Frame> taken_;    ///< its particles are here
-    std::optional<Frame> begun_;    ///< is being made
+    std::optional<Frame> taken_;  ///< its particles are here
+    std::optional<Frame> begun_;  ///< is being made
+    // The worker's, while it is at work:
     std::optional<Frame> settled_;  ///< is to be published
     Making making_ = Making::nothing;
     bool is_to_prepare_ = false;  ///< the frame that was taken
-    // The worker's, while it is at work:
     MadeMesh made_;
     bool has_part_ = false;  ///< whether it is of the frame
     std::string failure_;    ///< of the publisher; empty: none

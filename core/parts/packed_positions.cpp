@@ -37,8 +37,9 @@ struct PackedForm {
         PackedForm form;
         form.least = message.get<std::array<std::int64_t, 3>>();
         form.bits = message.get<std::array<std::uint8_t, 3>>();
-        form.is_packed = message.get<bool>();
-        if (form.is_packed && form.position_bits() > most_bits) MessageReader::refuse();
+        const auto is_packed = message.get<std::uint8_t>();
+        form.is_packed = is_packed == 1;
+        if (is_packed > 1 || (form.is_packed && form.position_bits() > most_bits)) MessageReader::refuse();
         return form;
     }
 };
@@ -74,7 +75,9 @@ public:
             std::memcpy(&number, bytes.data() + i * size, size);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const PositionBits mask = (PositionBits{1} << form.bits[axis]) - 1;
-                *to++ = place_of(form.least[axis] + static_cast<std::int64_t>(number & mask));
+                const std::uint64_t unit =
+                    static_cast<std::uint64_t>(form.least[axis]) + static_cast<std::uint64_t>(number & mask);
+                *to++ = place_of(static_cast<std::int64_t>(unit));
                 number >>= form.bits[axis];
             }
         }

@@ -79,21 +79,16 @@ public:
             validate_places(coming_.mine, settings_);
             return packed(facts_of(coming_.mine));
         });
-        try {
-            coming_error_ = nullptr;
+        agreement_.agree([&] {
             coming_.facts = facts_together(coming_.told);
             // All processes hold the next frames against the same arrays, also one that has brought none.
             choice_.keep(coming_.facts.form.without_values());
-        } catch (const InvalidInput&) {
-            throw;  // by all: they have the same facts
-        } catch (...) {
-            coming_error_ = std::current_exception();
-        }
+        });
     }
 
     void prepare() noexcept {
-        if (coming_error_) return;
         try {
+            coming_error_ = nullptr;
             coming_.deal(options_);
             coming_.write_first(settings_, units_per_length_);
         } catch (...) {

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <condition_variable>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <stop_token>
-#include <system_error>
 #include <thread>
 
 namespace meniscus {
@@ -38,7 +38,7 @@ private:
         try {
             if (!thread_.joinable()) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
             return true;
-        } catch (const std::system_error&) {
+        } catch (const std::exception&) {
             return false;
         }
     }
