@@ -172,7 +172,7 @@ private:
             making_ = Making::nothing;
         }
         if (!is_to_prepare_ && !settled_ && making_ == Making::nothing) return;
-        // What is to be done is kept here: so much as a larger function could not be had without memory.
+        // What is to be done is kept in members: a function with it would need memory, which may not be there.
         worker_.start([this] {
             if (const std::optional<Frame> frame = std::exchange(settled_, std::nullopt)) publish(*frame);
             if (making_ != Making::nothing) make();
