@@ -96,7 +96,9 @@ std::uint64_t most_work(const std::vector<BrickBox>& boxes, const std::vector<Br
 
 TEST(DealBricks, GivesNoPartOfACubeMoreWorkThanEvenCutsDo) {
     std::vector<BrickLoad> loads;
+    loads.reserve(8 * 8 * 8);
     std::vector<BrickBox> even;
+    even.reserve(4 * 4 * 4);
     for (std::int32_t i = 0; i < 8 * 8 * 8; ++i) loads.push_back({{i % 8, i / 8 % 8, i / 64}, 0, 10});
     for (std::int32_t i = 0; i < 4 * 4 * 4; ++i) {
         const std::int32_t x = i % 4 * 2, y = i / 4 % 4 * 2, z = i / 16 * 2;

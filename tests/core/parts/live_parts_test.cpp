@@ -127,12 +127,12 @@ TEST(LiveParts, PublishTheWholesMeshOfEachFrameWhoeverMakesIt) {
 /// A block of water, and drops beside it: much surface of few particles.
 test::Particles block_and_drops() {
     test::Particles particles;
-    for (int i = 0; i < 16 * 16 * 16; ++i)
-        particles.add(static_cast<float>(i % 16) * 0.05F, static_cast<float>(i / 16 % 16) * 0.05F,
-                      static_cast<float>(i / 256) * 0.05F);
-    for (int i = 0; i < 16 * 4 * 4; ++i)
-        particles.add(1.2F + static_cast<float>(i % 16) * 0.2F, static_cast<float>(i / 16 % 4) * 0.2F,
-                      static_cast<float>(i / 64) * 0.2F);
+    const auto add = [&particles](int x, int y, int z, float spacing, float from) {
+        particles.add(from + static_cast<float>(x) * spacing, static_cast<float>(y) * spacing,
+                      static_cast<float>(z) * spacing);
+    };
+    for (int i = 0; i < 16 * 16 * 16; ++i) add(i % 16, i / 16 % 16, i / 256, 0.05F, 0.0F);
+    for (int i = 0; i < 16 * 4 * 4; ++i) add(i % 16, i / 16 % 4, i / 64, 0.2F, 1.2F);
     return particles;
 }
 
@@ -161,9 +161,11 @@ TEST(LiveParts, AreDealtByTheSurfaceOfTheFrameBefore) {
 TEST(LiveParts, AreDealtAsBeforeOnceARankHasFailed) {
     const test::Particles particles = block_and_drops();
     test::Particles spike = particles;
-    for (int i = 0; i < 100000; ++i)
+    for (int i = 0; i < 100000; ++i) {
+        const int z = i / 2500;
         spike.add(static_cast<float>(i % 50) * 0.015F, static_cast<float>(i / 50 % 50) * 0.015F,
-                  static_cast<float>(i / 2500) * 0.015F);
+                  static_cast<float>(z) * 0.015F);
+    }
     Shown shown;
     test::on_ranks(2, [&](test::ThreadExchange& exchange) {
         Publisher publisher(shown);

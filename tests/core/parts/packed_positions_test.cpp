@@ -71,6 +71,7 @@ TEST(PackedPositions, SnapToTheSameUnitsOverAllOfSpace) {
 
 TEST(PackedPositions, AreThoseThatWereChosen) {
     std::vector<float> positions;
+    positions.reserve(3 * 1000);
     for (int i = 0; i < 3 * 1000; ++i) positions.push_back(static_cast<float>(i));
     std::vector<std::uint32_t> places;
     std::vector<float> chosen;
@@ -98,6 +99,7 @@ TEST(PackedPositions, TakeAtMostThreeQuartersOfThoseThatLieTogether) {
 
 TEST(PackedPositions, AreRefusedWhereTheirMessageEndsTooEarly) {
     std::vector<float> positions;
+    positions.reserve(3 * 200);
     for (int i = 0; i < 3 * 200; ++i) positions.push_back(static_cast<float>(i % 50));
     const std::vector<std::byte> bytes = packed(positions, {}, 4096.0);
     for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 20) {
