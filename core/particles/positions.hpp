@@ -7,12 +7,18 @@
 #include "lattice/coordinates.hpp"
 #include "lattice/host_device.hpp"
 #include "meniscus/particle_frame.hpp"
+#include "meniscus/settings.hpp"
 
 namespace meniscus {
 
 /// The coordinate that a number stands for between the ends of a quantization box, along one axis.
 MENISCUS_HD inline double decoded(std::uint16_t number, double low, double high) {
     return low + static_cast<double>(number) * (high - low) / 65535.0;
+}
+
+/// Units of the lattice in one of the world's length: 4096 / c.
+inline double units_per_length(const Settings& settings) {
+    return units_per_cell / world_cell_size(settings);
 }
 
 /// The positions of a frame, in one of the two encodings of ParticleFrame.

@@ -270,7 +270,7 @@ void deal(BrickDeal& to, std::size_t first, std::size_t last, const Piece& piece
 
 std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& settings, std::uint32_t rank,
                                    std::size_t each_stands_for) {
-    const PositionsView positions = positions_view(frame, units_per_cell / world_cell_size(settings));
+    const PositionsView positions = positions_view(frame, units_per_length(settings));
     constexpr auto edge = static_cast<std::uint64_t>(units_per_base_cell * brick_size);
     static_assert(std::has_single_bit(edge));
     const auto brick = [&](std::int64_t unit) { return static_cast<std::int32_t>(unit >> std::countr_zero(edge)); };

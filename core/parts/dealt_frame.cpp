@@ -10,17 +10,19 @@
 
 namespace meniscus {
 
-void DealtFrame::deal(const PartsOptions& options) {
-    const std::size_t ranks = told.size();
-    BrickDeal dealt = deal_bricks(loads_together(std::exchange(told, {})), options.parts);
+void DealtFrame::prepare(const Settings& settings, const PartsOptions& options) {
+    facts = facts_together(told);
+    BrickDeal dealt = deal_bricks(std::move(facts.loads), options.parts);
     rank_of_ = deal_parts(dealt, options.makers);
     own_ = std::move(dealt.boxes);
     overlaps_.assign(own_.size(), options.overlap);
-    of_rank_.resize(ranks);
-    messages_.resize(ranks);
+    of_rank_.resize(told.size());
+    told.clear();
     wanted_.resize(own_.size());
     std::iota(wanted_.begin(), wanted_.end(), std::size_t{0});
     deal_turns();
+    near_.begin(mine, settings);
+    write(settings);
 }
 
 /// One part of each process at a time: of the particles near it there is one copy beside the frame.
@@ -32,11 +34,6 @@ void DealtFrame::deal_turns() {
         its.push_back(part);
         turns_ = std::max(turns_, its.size());
     }
-}
-
-void DealtFrame::write_first(const Settings& settings, double units_per_length) {
-    near_.begin(mine, units_per_length);
-    write(settings);
 }
 
 void DealtFrame::write(const Settings& settings) {

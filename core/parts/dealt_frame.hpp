@@ -1,4 +1,5 @@
-// A frame whose bricks are dealt: this process's particles of it, and the parts that all processes make of it in turns.
+// A frame in parts: this process's particles of it, and the parts to which bricks are dealt, which all processes make
+// in turns.
 #pragma once
 
 #include <chrono>
@@ -24,18 +25,17 @@ public:
     PartParticles kept;
     ParticleFrame mine;                     ///< borrows from the caller, and from what is kept
     std::vector<PartExchange::Bytes> told;  ///< by each process: its facts
-    FrameFacts facts;                       ///< of all processes' particles, but for the loads
+    FrameFacts facts;                       ///< of all processes' particles; the loads until they are dealt
+    std::exception_ptr error;               ///< of this process
 
-    /// Deals the bricks, all parts of which are to be made. makers: as PartsOptions.
-    void deal(const PartsOptions& options);
-    /// Chooses `mine` for the first parts.
-    void write_first(const Settings& settings, double units_per_length);
-    /// Chooses them for the parts of this turn.
+    /// Puts together what was told, deals the bricks, and chooses `mine` for the first parts. Throws as
+    /// facts_together().
+    void prepare(const Settings& settings, const PartsOptions& options);
+    /// Chooses `mine` for the parts of this turn.
     void write(const Settings& settings);
     /// What each process is sent for the part that it makes in this turn.
     std::vector<PartExchange::Bytes>& messages() { return messages_; }
 
-    std::size_t parts() const { return own_.size(); }
     std::span<const BrickBox> own() const { return own_; }
     std::span<const std::size_t> rank_of() const { return rank_of_; }  ///< the process that makes each part
     FramePart part(std::size_t number) const { return {own_[number], overlaps_[number], facts.ranges}; }

@@ -18,6 +18,7 @@ PartExchange::Bytes packed(const FrameFacts& facts) {
         message.add(array.type);
         message.add(array.components);
     }
+    message.add_all(std::span<const BrickLoad>(facts.loads));
     message.add(static_cast<std::uint64_t>(facts.ranges.size()));
     for (const ArrayRange& range : facts.ranges) {
         message.add_text(range.name);
@@ -25,14 +26,13 @@ PartExchange::Bytes packed(const FrameFacts& facts) {
         message.add(range.least);
         message.add(range.greatest);
     }
-    message.add_all(std::span<const BrickLoad>(facts.loads));
     return message.take();
 }
 
 namespace {
 
-/// But for the loads, which come next.
-FrameFacts unpacked_facts(MessageReader& message) {
+FrameFacts unpacked_facts(const PartExchange::Bytes& bytes) {
+    MessageReader message(bytes);
     FrameFacts facts;
     facts.by_level = message.get<ParticlesByLevel>();
     facts.form.is_quantized = message.get<bool>();
@@ -44,6 +44,7 @@ FrameFacts unpacked_facts(MessageReader& message) {
         array.type = message.get<ElementType>();
         array.components = message.get<std::uint64_t>();
     }
+    message.append_to(facts.loads);
     for (auto left = message.get<std::uint64_t>(); left > 0; --left) {
         ArrayRange& range = facts.ranges.emplace_back();
         range.name = message.get_text();
@@ -59,8 +60,8 @@ FrameFacts unpacked_facts(MessageReader& message) {
 FrameFacts facts_together(const std::vector<PartExchange::Bytes>& of_ranks) {
     FrameFacts all;
     for (const PartExchange::Bytes& bytes : of_ranks) {
-        MessageReader message(bytes);
-        FrameFacts facts = unpacked_facts(message);
+        FrameFacts facts = unpacked_facts(bytes);
+        all.loads.insert(all.loads.end(), facts.loads.begin(), facts.loads.end());
         if (facts.particles() == 0) {
             // Of any form; where nobody has particles, the arrays that are named give a mesh its attributes.
             if (all.particles() == 0 && all.form.arrays.empty()) all.form = std::move(facts.form);
@@ -75,16 +76,6 @@ FrameFacts facts_together(const std::vector<PartExchange::Bytes>& of_ranks) {
         widen(all.ranges, facts.ranges);
     }
     return all;
-}
-
-std::vector<BrickLoad> loads_together(const std::vector<PartExchange::Bytes>& of_ranks) {
-    std::vector<BrickLoad> loads;
-    for (const PartExchange::Bytes& bytes : of_ranks) {
-        MessageReader message(bytes);
-        unpacked_facts(message);
-        message.append_to(loads);
-    }
-    return loads;
 }
 
 }  // namespace meniscus

@@ -27,10 +27,8 @@ struct FrameFacts {
 };
 
 PartExchange::Bytes packed(const FrameFacts& facts);
-/// The facts of all of a frame's particles, but for the loads. Throws InvalidInput where processes with particles bring
-/// different arrays or encodings.
+/// The facts of all of a frame's particles. Throws InvalidInput where processes with particles bring different arrays
+/// or encodings.
 FrameFacts facts_together(const std::vector<PartExchange::Bytes>& of_ranks);
-/// The loads of all, which only the deal needs.
-std::vector<BrickLoad> loads_together(const std::vector<PartExchange::Bytes>& of_ranks);
 
 }  // namespace meniscus

@@ -42,7 +42,7 @@ public:
         std::exception_ptr error;
         come_to_rest(failed);
         // The frame that is being made, then the one that was taken after it.
-        while (begun_ || taken_ || settled_) {
+        while (begun_ || taken_) {
             try {
                 settle(true);
                 bring();
@@ -227,7 +227,7 @@ private:
     std::uint64_t dropped_ = 0;
     std::optional<Frame> taken_;  ///< its particles are here
     std::optional<Frame> begun_;  ///< is being made
-    // The worker's, while it is at work:
+    // The worker's, while it is at work; what is to be done comes first:
     std::optional<Frame> settled_;  ///< is to be published
     Making making_ = Making::nothing;
     bool is_to_prepare_ = false;  ///< the frame that was taken

@@ -46,7 +46,7 @@ struct PackedForm {
 
 class PackedGroup {
 public:
-    PackedGroup(double units_per_length) : units_per_length_(units_per_length) {}
+    explicit PackedGroup(double units_per_length) : units_per_length_(units_per_length) {}
     void add(const float* position) { std::copy_n(position, 3, points_[count_++].begin()); }
     bool is_full() const { return count_ == packed_group; }
 

@@ -10,12 +10,12 @@
 
 namespace meniscus {
 
-/// A position takes less as a rule, with its share of what is said of a group, and at most twelve with it.
+/// Bytes to set aside for a position in a message. Most take less; those that lie far apart take up to twelve.
 inline constexpr std::size_t packed_position_bytes = 9;
 
-/// Adds positions, x y z each, that snap() to the same units once they are read: what is reconstructed of them is the
-/// same. places: of those that are sent, if there are any; without
-/// places, all are.
+/// Adds positions, x y z each, world units, that snap() to the same units of the lattice once they are read: what is
+/// reconstructed of them is the same. places: of those that are sent; without places all are. units_per_length: see
+/// there.
 void add_positions(MessageWriter& message, std::span<const float> positions, std::span<const std::uint32_t> places,
                    double units_per_length);
 /// Appends them. Throws InvalidInput where the message is none of this program's.

@@ -117,9 +117,9 @@ float first_number(const Holds& holds) {
 
 }  // namespace
 
-void ParticlesNear::begin(const ParticleFrame& frame, double units_per_length) {
+void ParticlesNear::begin(const ParticleFrame& frame, const Settings& settings) {
     frame_ = frame;
-    units_per_length_ = units_per_length;
+    units_per_length_ = units_per_length(settings);
     groups_.clear();
     for_each_group(frame, [this](auto numbers, std::size_t) { groups_.push_back(bounds_of(numbers)); });
     if (groups_.empty()) return;

@@ -20,8 +20,8 @@ struct NumberBounds {
 /// Chooses particles of a frame by the places that their positions decode to. Keeps its memory from frame to frame.
 class ParticlesNear {
 public:
-    /// frame: valid; borrowed until the next one begins. units_per_length: of the lattice to which it will be snapped.
-    void begin(const ParticleFrame& frame, double units_per_length);
+    /// frame: valid; borrowed until the next one begins. settings: of the lattice to which it will be snapped.
+    void begin(const ParticleFrame& frame, const Settings& settings);
     /// Those within a closed box, world units, as a message. memory: of a message before.
     std::vector<std::byte> within(const Box& box, std::vector<std::byte> memory);
 

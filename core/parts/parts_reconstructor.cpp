@@ -3,7 +3,6 @@
 #include <chrono>
 #include <exception>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -47,7 +46,6 @@ public:
     Impl(const Settings& settings, const BackendOptions& backend, const PartsOptions& options, PartExchange& exchange)
         : settings_(settings), options_(options), agreement_(exchange), choice_(settings) {
         validate(settings);
-        units_per_length_ = units_per_cell / world_cell_size(settings);
         deal_bricks({}, options.parts);
         FramePart part;
         part.overlap = options.overlap;
@@ -79,20 +77,14 @@ public:
             validate_places(coming_.mine, settings_);
             return packed(facts_of(coming_.mine));
         });
-        agreement_.agree([&] {
-            coming_.facts = facts_together(coming_.told);
-            // All processes hold the next frames against the same arrays, also one that has brought none.
-            choice_.keep(coming_.facts.form.without_values());
-        });
     }
 
     void prepare() noexcept {
         try {
-            coming_error_ = nullptr;
-            coming_.deal(options_);
-            coming_.write_first(settings_, units_per_length_);
+            coming_.error = nullptr;
+            coming_.prepare(settings_, options_);
         } catch (...) {
-            coming_error_ = std::current_exception();
+            coming_.error = std::current_exception();
         }
     }
 
@@ -102,8 +94,11 @@ public:
         borders_.clear();
         making_.clear();
         report_ = {};
-        error_ = std::exchange(coming_error_, nullptr);
-        send([this] { rethrow_error(); });
+        send([this] {
+            rethrow_error();
+            // All processes hold the next frames against the same arrays, also one that has brought none.
+            choice_.keep(frame_.facts.form.without_values());
+        });
     }
 
     void make(const PartSink& sink) noexcept {
@@ -122,7 +117,7 @@ public:
             }
             make_one(*number, particles_.frame(), sink);
         } catch (...) {
-            error_ = std::current_exception();
+            frame_.error = std::current_exception();
         }
     }
 
@@ -217,7 +212,7 @@ private:
     }
 
     void rethrow_error() {
-        if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+        if (frame_.error) std::rethrow_exception(std::exchange(frame_.error, nullptr));
     }
 
     /// Of all parts: those whose seams differ are wanted again. Returns what each process tells, PartsTold.
@@ -267,7 +262,6 @@ private:
     }
 
     Settings settings_;
-    double units_per_length_ = 0.0;
     PartsOptions options_;
     Agreement agreement_;
     AttributeChoice choice_;
@@ -276,8 +270,7 @@ private:
 
     Pace pace_ = Pace::at_once;
 
-    DealtFrame coming_;                ///< has begun
-    std::exception_ptr coming_error_;  ///< of this process, of this frame
+    DealtFrame coming_;  ///< has begun
     // Of the frame that has been brought:
     DealtFrame frame_;
     std::optional<Warning> wrong_radius_;
@@ -289,7 +282,6 @@ private:
     std::vector<PartExchange::Bytes> to_touching_, from_touching_;  ///< of these, to the parts beyond
     std::vector<PartExchange::Bytes> from_;                         ///< the particles for this turn's part
     PartParticles particles_;
-    std::exception_ptr error_;  ///< of this process
 
     /// Of the frame that has ended last:
     struct {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -48,9 +49,7 @@ Publication::Publication(std::string owner, const Settings& settings, const Publ
     : owner_(std::move(owner)),
       settings_(settings),
       keep_seconds_(options.keep.count() != 0 ? std::optional(seconds_of(options.keep)) : std::nullopt),
-      limit_(options.limit),
-      most_frame_bytes_(options.limit != 0 ? std::min(options.limit, files::SegmentFile::most_bytes)
-                                           : files::SegmentFile::most_bytes),
+      limit_(options.limit != 0 ? options.limit : std::numeric_limits<std::size_t>::max()),
       counters_(std::move(counters)) {
     *manifest_.mutable_settings() = conversion::to_wire(settings_);
 }
@@ -91,14 +90,14 @@ void Publication::append(const EncodedFrame& frame, Clock::time_point now) {
     static const WatchOptions form{.format = {}, .spray = true};
     if (!open_.empty() && (open_run_ != frame.run_id || open_.last_index() >= frame.index)) end_segment(now);
     FrameUpdate update = update_mesh(frame, form, open_.empty() ? nullptr : &base_);
-    if (!open_.empty() && open_.bytes() + update.bytes > most_frame_bytes_) {
+    if (!open_.empty() && open_.bytes() + update.bytes > most_frame_bytes()) {
         end_segment(now);
         update = update_mesh(frame, form, nullptr);
     }
-    if (update.bytes > most_frame_bytes_) {
+    if (update.bytes > most_frame_bytes()) {
         ++counters_->left_out;
         throw LimitExceeded(
-            fmt::format("it has {} bytes; --publish-limit has room for {}", update.bytes, most_frame_bytes_));
+            fmt::format("it has {} bytes; --publish-limit has room for {}", update.bytes, most_frame_bytes()));
     }
     if (open_.empty()) {
         open_run_ = frame.run_id;
@@ -132,7 +131,7 @@ void Publication::end_segment(Clock::time_point now) {
                                                    [&](std::size_t i) { return listed(i).entry.seconds(); });
     for (std::size_t i = 0; i < old; ++i) leave(listed(i), now);
     // Before a reader sees the new one beside them.
-    while (limit_ != 0 && bytes_ > limit_) remove_oldest();
+    while (bytes_ > limit_) remove_oldest();
 }
 
 void Publication::end(std::uint64_t turn, Clock::time_point now) {

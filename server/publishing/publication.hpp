@@ -1,6 +1,7 @@
 // One session's meshes as the files of a publication, in memory. proto/README.md has the format.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -96,6 +97,7 @@ private:
     // With writing_ held.
 
     void append(const EncodedFrame& frame, Clock::time_point now);
+    std::size_t most_frame_bytes() const { return std::min(limit_, files::SegmentFile::most_bytes); }
     void end_segment(Clock::time_point now);
 
     std::shared_ptr<const PublishedFile> manifest_file() const;
@@ -116,8 +118,7 @@ private:
     const std::string owner_;
     const Settings settings_;
     const std::optional<double> keep_seconds_;  ///< of the newest frames; none: all
-    const std::size_t limit_;                   ///< of its segments' bytes; 0: none
-    const std::size_t most_frame_bytes_;
+    const std::size_t limit_;                   ///< of its segments' bytes
     const std::shared_ptr<PublishingCounters> counters_;
 
     std::mutex writing_;  ///< for what follows

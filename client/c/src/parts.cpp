@@ -1,11 +1,10 @@
-#include <array>
-#include <cstddef>
 #include <memory>
 #include <optional>
 
 #include "options.hpp"
 #include "particles.hpp"
 #include "rank_exchange.hpp"
+#include "ranks/last_two.hpp"
 #include "ranks/parts_job.hpp"
 #include "result.hpp"
 
@@ -13,8 +12,7 @@ using namespace meniscus::c;
 
 struct meniscus_parts {
     RankExchange exchange;
-    std::array<FrameBuffers, 2> buffers;  ///< of the last two frames, in turn
-    std::size_t next_buffers = 0;
+    meniscus::ranks::LastTwo<FrameBuffers> buffers;
     std::optional<meniscus::ranks::PartsJob> job;  ///< goes first: it borrows from the buffers
 
     explicit meniscus_parts(const meniscus_exchange* ranks) : exchange(ranks) {}
@@ -36,10 +34,7 @@ meniscus_result meniscus_parts_push(meniscus_parts* parts, const meniscus_partic
                                     double time) {
     return guarded([&] {
         meniscus_parts& pushed = required(parts, "parts");
-        const auto frame = [&] {
-            pushed.next_buffers = 1 - pushed.next_buffers;
-            return read_frame(particles, pushed.buffers[pushed.next_buffers]);
-        };
+        const auto frame = [&] { return read_frame(particles, pushed.buffers.next()); };
         return pushed.job->push(frame, step, time) ? MENISCUS_OK : MENISCUS_WOULD_WAIT;
     });
 }

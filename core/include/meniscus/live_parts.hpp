@@ -72,8 +72,8 @@ public:
     /// of them.
     ///
     /// An error of one process is thrown by all, with its rank: InvalidInput for particles, an index or a time that
-    /// cannot be, and errors of the frames before, PublishingFailed among them. This frame is then left out, and the
-    /// next may come.
+    /// cannot be, and errors of the frames before, PublishingFailed among them, or that their encodings differ from
+    /// process to process. This frame is then left out, and the next may come.
     bool push(const FrameGiver& mine, std::uint64_t index, double simulation_time);
     bool push(const ParticleFrame& mine, std::uint64_t index, double simulation_time) {
         return push([&mine] { return mine; }, index, simulation_time);

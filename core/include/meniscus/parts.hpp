@@ -114,7 +114,8 @@ public:
 
     /// Copies the particles that do not stay.
     void begin(const FrameGiver& mine);
-    /// Deals bricks to parts, and chooses the particles for each. What goes wrong is thrown by bring().
+    /// Deals bricks to parts, and chooses the particles for each. What goes wrong is thrown by bring(): also that the
+    /// processes' frames differ in their encoding.
     void prepare() noexcept;
     /// Brings the first particles to those that make parts of them. The frame before must have ended.
     void bring();

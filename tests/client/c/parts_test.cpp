@@ -6,12 +6,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <random>
 #include <string>
 
 #include "in_process.hpp"
 #include "meniscus/mesh_hash.hpp"
+#include "support/parts.hpp"
 #include "thread_ranks.hpp"
 #include "through_server.hpp"
 
@@ -94,6 +96,46 @@ TEST_F(CParts, ShowWatchersTheWholesMeshOfEachFrame) {
             EXPECT_EQ(meniscus_parts_free(parts), MENISCUS_OK) << meniscus_error_message();
         });
     }
+}
+
+// Parts of noise with an overlap of 1 are made again, of particles that were chosen anew while the next frame had come.
+TEST_F(CParts, KeepFloat64UntilTheirFrameIsSettled) {
+    constexpr std::uint64_t frames = 5;
+    std::vector<Particles> noise;
+    for (unsigned i = 0; i < frames; ++i)
+        noise.push_back(noise_cube(i, 1200 + 300 * static_cast<int>(i % 3), 0.4, 0.025));
+    std::map<std::uint64_t, std::uint64_t> taken;  // the frame's number of each step
+    std::optional<CWatcher> watcher;
+    std::uint64_t last = 0;
+    on_ranks(3, [&](const meniscus_exchange& exchange) {
+        const COptions given = options({{"reconstruct-ranks", "all"}, {"overlap", "1"}});
+        meniscus_parts* parts = nullptr;
+        ASSERT_EQ(meniscus_parts_open(&exchange, given.get(), &parts), MENISCUS_OK) << meniscus_error_message();
+        if (exchange.rank == 0) watcher = watch(meniscus_parts_session_id(parts));
+        std::uint64_t step = 0;
+        for (std::uint64_t frame = 0; frame < frames; ++frame, ++step) {
+            std::vector<double> positions;
+            for (std::size_t i = exchange.rank; i < noise[frame].count(); i += exchange.ranks)
+                for (std::size_t axis = 0; axis < 3; ++axis) positions.push_back(noise[frame].positions[3 * i + axis]);
+            meniscus_particles mine = MENISCUS_PARTICLES_INIT;
+            mine.count = positions.size() / 3;
+            mine.positions_double = positions.data();
+            meniscus_result result = MENISCUS_OK;
+            while ((result = meniscus_parts_push(parts, &mine, step, 0.0)) == MENISCUS_WOULD_WAIT) ++step;
+            ASSERT_EQ(result, MENISCUS_OK) << meniscus_error_message();
+            if (exchange.rank == 0) taken[step] = frame;
+        }
+        EXPECT_EQ(meniscus_parts_free(parts), MENISCUS_OK) << meniscus_error_message();
+    });
+    CFrame seen;
+    for (; meniscus_watcher_next(watcher->get(), patience, seen.out()) == MENISCUS_OK; seen = CFrame()) {
+        EXPECT_EQ(meniscus_frame_index(seen.get(), &last), MENISCUS_OK);
+        ASSERT_TRUE(taken.contains(last));
+        Settings settings = default_settings();
+        settings.cell_size = 0.25;
+        EXPECT_EQ(sha256_of(seen), mesh_sha256(reconstruct(settings, noise[taken[last]].frame())));
+    }
+    EXPECT_EQ(last, taken.rbegin()->first);
 }
 
 TEST_F(CParts, HaveAttributesRoundedOverOneRange) {

@@ -69,7 +69,7 @@ TEST(DealBricks, GivesPartsOfACubeTheSame) {
     std::vector<BrickLoad> loads;
     loads.reserve(8 * 8 * 8);
     for (std::int32_t i = 0; i < 8 * 8 * 8; ++i) loads.push_back({{i % 8, i / 8 % 8, i / 64}, 0, 10});
-    for (const std::size_t parts : {2U, 4U, 8U})
+    for (const std::size_t parts : {2U, 4U, 8U, 64U})
         for (const BrickBox& box : deal_bricks(loads, parts).boxes) EXPECT_EQ(load_of(box, loads), 5120 / parts);
 }
 
@@ -94,19 +94,6 @@ std::uint64_t most_work(const std::vector<BrickBox>& boxes, const std::vector<Br
     return most;
 }
 
-TEST(DealBricks, GivesNoPartOfACubeMoreWorkThanEvenCutsDo) {
-    std::vector<BrickLoad> loads;
-    loads.reserve(8 * 8 * 8);
-    std::vector<BrickBox> even;
-    even.reserve(4 * 4 * 4);
-    for (std::int32_t i = 0; i < 8 * 8 * 8; ++i) loads.push_back({{i % 8, i / 8 % 8, i / 64}, 0, 10});
-    for (std::int32_t i = 0; i < 4 * 4 * 4; ++i) {
-        const std::int32_t x = i % 4 * 2, y = i / 4 % 4 * 2, z = i / 16 * 2;
-        even.push_back({{x, y, z}, {x + 2, y + 2, z + 2}});
-    }
-    EXPECT_LE(most_work(deal_bricks(loads, 64).boxes, loads), most_work(even, loads));
-}
-
 /// Of all deals by cuts from face to face.
 std::uint64_t least_most_work(const BrickBox& box, std::size_t parts, const std::vector<BrickLoad>& loads) {
     if (parts == 1) return most_work({box}, loads);
@@ -122,7 +109,7 @@ std::uint64_t least_most_work(const BrickBox& box, std::size_t parts, const std:
     return least;
 }
 
-TEST(DealBricks, GivesThePartWithMostWorkTheLeastOfAllCuts) {
+TEST(DealBricks, GivesThePartWithMostWorkNearlyTheLeastOfAllCuts) {
     std::mt19937 random(8);
     double dealt = 0.0, least = 0.0;
     for (int i = 0; i < 8; ++i) {

@@ -7,15 +7,12 @@
 #include <numeric>
 #include <random>
 
-#include "lattice/coordinates.hpp"
+#include "particles/positions.hpp"
 #include "parts/part_particles.hpp"
 #include "support/particles.hpp"
 
 namespace meniscus {
 namespace {
-
-/// A cell is a hundredth of the cube's edge.
-constexpr double units_per_length = 100.0 * units_per_cell;
 
 /// Particles in a cube of edge 1, or in rows along x; each has its number as an attribute.
 struct Numbered {
@@ -78,6 +75,8 @@ Box random_box(const Numbered& particles, std::mt19937& random) {
 }
 
 TEST(ParticlesNear, AreThoseWithinTheBox) {
+    const Settings settings = test::default_settings();
+    const double units = units_per_length(settings);
     std::mt19937 random(8);
     ParticlesNear near;
     std::vector<std::byte> message;
@@ -86,7 +85,7 @@ TEST(ParticlesNear, AreThoseWithinTheBox) {
         for (const bool is_quantized : {false, true})
             for (const bool in_rows : {false, true}) {
                 const Numbered particles(count, static_cast<unsigned>(count), in_rows, is_quantized);
-                near.begin(particles.frame, units_per_length);
+                near.begin(particles.frame, settings);
                 for (int i = 0; i < 50; ++i) {
                     const Box box = random_box(particles, random);
                     message = near.within(box, std::move(message));
@@ -105,8 +104,8 @@ TEST(ParticlesNear, AreThoseWithinTheBox) {
                             if (is_quantized)
                                 ASSERT_EQ(got.quantized[3 * at + axis], particles.quantized[3 * p + axis]);
                             else
-                                ASSERT_EQ(snap(got.positions[3 * at + axis], units_per_length),
-                                          snap(particles.positions[3 * p + axis], units_per_length));
+                                ASSERT_EQ(snap(got.positions[3 * at + axis], units),
+                                          snap(particles.positions[3 * p + axis], units));
                         }
                         ++at;
                     }
@@ -123,7 +122,7 @@ TEST(ParticlesNear, AreFoundBeyondFloat32) {
     frame.quantized = quantized;
     frame.quantization_box = {{-1e45, -1e45, -1e45}, {1e45, 1e45, 1e45}};
     ParticlesNear near;
-    near.begin(frame, 1.0);
+    near.begin(frame, test::default_settings());
     PartParticles part;
     part.begin(FrameForm(frame));
     part.add(near.within({{1e44, 1e44, 1e44}, {9e44, 9e44, 9e44}}, {}));
@@ -132,7 +131,7 @@ TEST(ParticlesNear, AreFoundBeyondFloat32) {
 
 TEST(ParticlesNear, AreNoneOfNone) {
     ParticlesNear near;
-    near.begin({}, 1.0);
+    near.begin({}, test::default_settings());
     EXPECT_TRUE(near.within({{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}}, {}).empty());
 }
 

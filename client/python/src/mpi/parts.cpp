@@ -1,7 +1,5 @@
 // The class _meniscus.Parts: frames of a job's ranks.
-#include <array>
 #include <atomic>
-#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <limits>
@@ -13,6 +11,7 @@
 #include "bindings.hpp"
 #include "meniscus/error.hpp"
 #include "mpi/rank_exchange.hpp"
+#include "ranks/last_two.hpp"
 #include "ranks/parts_job.hpp"
 #include "text_options/option_reader.hpp"
 #include "threads/ending.hpp"
@@ -94,8 +93,7 @@ public:
             without_lock([&] {
                 is_taken = job_->push(
                     [&] {
-                        next_frame_ = 1 - next_frame_;
-                        OwnedFrame& owned = frames_[next_frame_];
+                        OwnedFrame& owned = frames_.next();
                         with_lock([&] {
                             const py::tuple arrays = arrays_of(frame);
                             owned.take(given_frame(arrays[0], arrays[1], arrays[2]));
@@ -122,8 +120,7 @@ public:
 private:
     py::object ranks_;
     RankExchange exchange_;
-    std::array<OwnedFrame, 2> frames_;  ///< the last two, in turn
-    std::size_t next_frame_ = 0;
+    ranks::LastTwo<OwnedFrame> frames_;
     std::atomic_flag is_called_;
     std::optional<ranks::PartsJob> job_;  ///< goes first
 };
