@@ -16,6 +16,8 @@ namespace meniscus {
 inline constexpr std::uint64_t particle_over_triangle = 7;
 /// That for a particle of a brick beside a part, which the part gets, too.
 inline constexpr std::uint64_t particle_beside_over_triangle = 3;
+/// That for a brick, whatever is in it: drops fill few bricks, and reach many.
+inline constexpr std::uint64_t brick_over_triangle = 1000;
 
 /// What a process has in a brick.
 struct BrickLoad {
@@ -24,7 +26,7 @@ struct BrickLoad {
     std::uint32_t particles = 0;
     std::uint32_t triangles = 0;  ///< those that it has made there in the last frame
 
-    /// Whole: its sums do not depend on their order.
+    /// But for that of the brick, which may have several loads. Whole: sums do not depend on their order.
     std::uint64_t work() const { return particle_over_triangle * particles + triangles; }
     std::uint64_t work_beside() const { return particle_beside_over_triangle * particles; }
     bool operator==(const BrickLoad&) const = default;
@@ -46,9 +48,9 @@ struct BrickDeal {
 };
 
 /// Deals all bricks to parts: boxes that fill space, made by cutting boxes in two between bricks, such that the part
-/// with most work has little: that of its bricks, and for the particles of those around it. The same for the same
-/// loads, in whatever order. parts: 1 to max_parts, else throws InvalidInput; there are fewer boxes where a brick would
-/// have several.
+/// with most work has little: that of its bricks with what is in them, and for the particles of those around it. The
+/// same for the same loads, in whatever order. parts: 1 to max_parts, else throws InvalidInput; there are fewer boxes
+/// where a brick would have several.
 BrickDeal deal_bricks(std::vector<BrickLoad> loads, std::size_t parts);
 
 /// The rank that makes each part. Each maker has as many as the others, or one more. Parts are given away by the number

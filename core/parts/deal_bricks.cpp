@@ -58,6 +58,7 @@ Bricks bricks_of(std::span<const BrickLoad> loads) {
     const auto key = [](const Brick& b) { return brick_key({b.at[0], b.at[1], b.at[2]}); };
     std::sort(bricks.begin(), bricks.end(), [&](const Brick& a, const Brick& b) { return key(a) < key(b); });
     add_up(bricks);
+    for (Brick& brick : bricks) brick.work += brick_over_triangle;
     return bricks;
 }
 

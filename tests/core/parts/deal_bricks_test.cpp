@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <random>
+#include <set>
 
 #include "parts/brick_deal.hpp"
 #include "support/parts.hpp"
@@ -83,13 +84,15 @@ std::uint64_t most_work(const std::vector<BrickBox>& boxes, const std::vector<Br
             wide.high[axis] = std::min(wide.high[axis] + 1, brick_end);
         }
         std::uint64_t own = 0, beside = 0;
+        std::set<BrickCoordinate> bricks;
         for (const BrickLoad& load : loads) {
-            if (box.holds(load.brick))
+            if (load.work() != 0 && box.holds(load.brick)) {
+                bricks.insert(load.brick);
                 own += load.work();
-            else if (wide.holds(load.brick))
+            } else if (wide.holds(load.brick))
                 beside += load.work_beside();
         }
-        if (own != 0) most = std::max(most, own + beside);
+        if (own != 0) most = std::max(most, brick_over_triangle * bricks.size() + own + beside);
     }
     return most;
 }
@@ -142,6 +145,15 @@ TEST(DealBricks, GivesFewerParticlesToAPartWithManyTriangles) {
     for (std::int32_t x = 0; x < 12; ++x) loads.push_back({{x, 0, 0}, 0, x < 8 ? 1000U : 10U, x < 8 ? 0U : 14000U});
     const std::vector<BrickBox> boxes = deal_bricks(loads, 2).boxes;
     EXPECT_EQ(boxes[0].high[0], 8);
+}
+
+TEST(DealBricks, GivesFewerParticlesToAPartWithManyBricks) {
+    // Drops that have just left the water: of their triangles nothing is known yet.
+    std::vector<BrickLoad> loads;
+    loads.reserve(28);
+    for (std::int32_t x = 0; x < 28; ++x) loads.push_back({{x, 0, 0}, 0, x < 4 ? 800U : 1U});
+    const std::vector<BrickBox> boxes = deal_bricks(loads, 2).boxes;
+    EXPECT_EQ(boxes[0].high[0], 4);
 }
 
 TEST(DealBricks, CutsWhereThereIsLittle) {
