@@ -1,7 +1,6 @@
 // Boxes of bricks for parts, by recursive bisection.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <limits>
 #include <string>
 #include <utility>
@@ -9,8 +8,6 @@
 #include "lattice/brick_grid.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/parts.hpp"
-#include "particles/positions.hpp"
-#include "parts/brick_counts.hpp"
 #include "parts/brick_deal.hpp"
 
 namespace meniscus {
@@ -58,7 +55,6 @@ Bricks bricks_of(std::span<const BrickLoad> loads) {
     const auto key = [](const Brick& b) { return brick_key({b.at[0], b.at[1], b.at[2]}); };
     std::sort(bricks.begin(), bricks.end(), [&](const Brick& a, const Brick& b) { return key(a) < key(b); });
     add_up(bricks);
-    for (Brick& brick : bricks) brick.work += brick_over_triangle;
     return bricks;
 }
 
@@ -268,32 +264,6 @@ void deal(BrickDeal& to, std::size_t first, std::size_t last, const Piece& piece
 }
 
 }  // namespace
-
-std::vector<BrickLoad> brick_loads(const ParticleFrame& frame, const Settings& settings, std::uint32_t rank,
-                                   std::size_t each_stands_for) {
-    const PositionsView positions = positions_view(frame, units_per_length(settings));
-    constexpr auto edge = static_cast<std::uint64_t>(units_per_base_cell * brick_size);
-    static_assert(std::has_single_bit(edge));
-    const auto brick = [&](std::int64_t unit) { return static_cast<std::int32_t>(unit >> std::countr_zero(edge)); };
-    BrickCounts counts;
-    // The same place in each group would be one layer of particles that lie in rows: places follow the golden ratio.
-    std::uint32_t fraction = 0;  // of 2^32
-    for (std::size_t first = 0; first < frame.count(); first += each_stands_for) {
-        const std::size_t group = std::min(each_stands_for, frame.count() - first);
-        const Units3 p = positions.snapped(first + static_cast<std::size_t>(group * std::uint64_t{fraction} >> 32));
-        fraction += 0x9E3779B9U;
-        counts.add(brick_key({brick(p.x), brick(p.y), brick(p.z)}), group);
-    }
-    std::vector<BrickCounts::Count> all = counts.take();
-    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
-    std::vector<BrickLoad> loads;
-    loads.reserve(all.size());
-    for (const BrickCounts::Count& count : all) {
-        const Int3 at = brick_coordinate(count.key);
-        loads.push_back({{at.x, at.y, at.z}, rank, static_cast<std::uint32_t>(count.particles), 0});
-    }
-    return loads;
-}
 
 BrickDeal deal_bricks(std::vector<BrickLoad> loads, std::size_t parts) {
     if (parts < 1 || parts > max_parts)

@@ -7,7 +7,7 @@
 
 #include "meniscus/part.hpp"
 #include "particles/placed_frame.hpp"
-#include "parts/brick_deal.hpp"
+#include "parts/brick_loads.hpp"
 #include "parts/part_particles.hpp"
 
 namespace meniscus {
@@ -15,7 +15,7 @@ namespace meniscus {
 struct FrameFacts {
     FrameForm form;
     ParticlesByLevel by_level{};
-    std::vector<BrickLoad> loads;  ///< particles, and triangles that the process has made in the last frame
+    std::vector<BrickLoad> loads;  ///< particles, and the surface that the process has made in the last frame
     std::vector<ArrayRange> ranges;
 
     std::uint64_t particles() const { return std::accumulate(by_level.begin(), by_level.end(), std::uint64_t{0}); }

@@ -14,8 +14,8 @@ namespace meniscus {
 inline constexpr std::size_t packed_position_bytes = 9;
 
 /// Adds positions, x y z each, world units, that snap() to the same units of the lattice once they are read: what is
-/// reconstructed of them is the same. places: of those that are sent; without places all are. units_per_length: see
-/// there.
+/// reconstructed of them is the same. places: of those that are sent; without places all are.
+/// units_per_length: that of the frame's settings (particles/positions.hpp).
 void add_positions(MessageWriter& message, std::span<const float> positions, std::span<const std::uint32_t> places,
                    double units_per_length);
 /// Appends them. Throws InvalidInput where the message is none of this program's.

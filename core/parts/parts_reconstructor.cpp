@@ -16,6 +16,7 @@
 #include "particles/warnings.hpp"
 #include "parts/agreement.hpp"
 #include "parts/brick_deal.hpp"
+#include "parts/brick_loads.hpp"
 #include "parts/contacts.hpp"
 #include "parts/dealt_frame.hpp"
 #include "parts/frame_facts.hpp"
@@ -187,28 +188,15 @@ private:
         const Statistics& statistics = reconstructor_->statistics();
         told_.take(number, MadePart(number, particles.count(), statistics, outcome), mesh_);
         // Where one process makes many parts, the largest decides its memory: those are dealt by particles alone.
-        if (pace_ == Pace::beside_a_simulation) making_.insert_or_assign(number, surface_loads());
+        if (pace_ == Pace::beside_a_simulation)
+            making_.insert_or_assign(
+                number, surface_loads(mesh_, static_cast<std::uint32_t>(agreement_.rank()), bricks_for_deal));
         borders_.insert_or_assign(number, PartBorder(number, outcome.seams, mesh_, frame_.own()));
         report_.whole.peak_bytes = std::max(report_.whole.peak_bytes, statistics.peak_bytes);
         report_.whole.device_peak_bytes = std::max(report_.whole.device_peak_bytes, statistics.device_peak_bytes);
         report_.whole.backend = statistics.backend;
         report_.whole.threads = statistics.threads;
         sink({number, its, mesh_, statistics});
-    }
-
-    /// The triangles of the part that was made last, by brick. A part of many bricks is cut into runs of them, and one
-    /// brick of each run has all the run's triangles: the message to all processes has a bound.
-    std::vector<BrickLoad> surface_loads() const {
-        const std::span<const MeshBrick> bricks(mesh_.bricks);
-        const std::size_t group = bricks.size() / bricks_for_deal + 1;
-        std::vector<BrickLoad> loads;
-        for (std::size_t first = 0; first < bricks.size(); first += group) {
-            const std::size_t end = std::min(first + group, bricks.size());
-            BrickLoad load{bricks[(first + end) / 2].coordinate, static_cast<std::uint32_t>(agreement_.rank()), 0, 0};
-            for (std::size_t b = first; b < end; ++b) load.triangles += bricks[b].triangle_count();
-            loads.push_back(load);
-        }
-        return loads;
     }
 
     void rethrow_error() {
@@ -276,7 +264,7 @@ private:
     std::optional<Warning> wrong_radius_;
     PartsReport report_;                                            ///< without what is summed up of the parts
     PartsTold told_;                                                ///< by this process
-    std::map<std::size_t, std::vector<BrickLoad>> making_;          ///< the triangles of these
+    std::map<std::size_t, std::vector<BrickLoad>> making_;          ///< the surfaces of these
     std::map<std::size_t, std::vector<BrickLoad>> surfaces_;        ///< the last finished frame's, for the next deal
     Borders borders_;                                               ///< of its parts
     std::vector<PartExchange::Bytes> to_touching_, from_touching_;  ///< of these, to the parts beyond

@@ -56,10 +56,13 @@ protected:
         for (const auto& [name, value] : more) EXPECT_EQ(meniscus_options_set(options.get(), name, value), MENISCUS_OK);
         return options;
     }
-    static std::string expected_sha256(std::uint64_t frame) {
+    static std::string whole_sha256(const Particles& particles) {
         Settings settings = default_settings();
         settings.cell_size = 0.25;
-        return mesh_sha256(reconstruct(settings, splash(static_cast<unsigned>(frame), 8).frame()));
+        return mesh_sha256(reconstruct(settings, particles.frame()));
+    }
+    static std::string expected_sha256(std::uint64_t frame) {
+        return whole_sha256(splash(static_cast<unsigned>(frame), 8));
     }
     void expect_frame(const CWatcher& watcher, std::uint64_t frame) {
         CFrame seen;
@@ -131,9 +134,7 @@ TEST_F(CParts, KeepFloat64UntilTheirFrameIsSettled) {
     for (; meniscus_watcher_next(watcher->get(), patience, seen.out()) == MENISCUS_OK; seen = CFrame()) {
         EXPECT_EQ(meniscus_frame_index(seen.get(), &last), MENISCUS_OK);
         ASSERT_TRUE(taken.contains(last));
-        Settings settings = default_settings();
-        settings.cell_size = 0.25;
-        EXPECT_EQ(sha256_of(seen), mesh_sha256(reconstruct(settings, noise[taken[last]].frame())));
+        EXPECT_EQ(sha256_of(seen), whole_sha256(noise[taken[last]]));
     }
     EXPECT_EQ(last, taken.rbegin()->first);
 }

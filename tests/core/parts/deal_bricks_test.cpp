@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <random>
-#include <set>
 
 #include "parts/brick_deal.hpp"
 #include "support/parts.hpp"
@@ -84,15 +83,13 @@ std::uint64_t most_work(const std::vector<BrickBox>& boxes, const std::vector<Br
             wide.high[axis] = std::min(wide.high[axis] + 1, brick_end);
         }
         std::uint64_t own = 0, beside = 0;
-        std::set<BrickCoordinate> bricks;
         for (const BrickLoad& load : loads) {
-            if (load.work() != 0 && box.holds(load.brick)) {
-                bricks.insert(load.brick);
+            if (box.holds(load.brick))
                 own += load.work();
-            } else if (wide.holds(load.brick))
+            else if (wide.holds(load.brick))
                 beside += load.work_beside();
         }
-        if (own != 0) most = std::max(most, brick_over_triangle * bricks.size() + own + beside);
+        if (own != 0) most = std::max(most, own + beside);
     }
     return most;
 }
@@ -147,15 +144,6 @@ TEST(DealBricks, GivesFewerParticlesToAPartWithManyTriangles) {
     EXPECT_EQ(boxes[0].high[0], 8);
 }
 
-TEST(DealBricks, GivesFewerParticlesToAPartWithManyBricks) {
-    // Drops that have just left the water: of their triangles nothing is known yet.
-    std::vector<BrickLoad> loads;
-    loads.reserve(28);
-    for (std::int32_t x = 0; x < 28; ++x) loads.push_back({{x, 0, 0}, 0, x < 4 ? 800U : 1U});
-    const std::vector<BrickBox> boxes = deal_bricks(loads, 2).boxes;
-    EXPECT_EQ(boxes[0].high[0], 4);
-}
-
 TEST(DealBricks, CutsWhereThereIsLittle) {
     // Two blocks of water, three bricks wide each, with a film between.
     std::vector<BrickLoad> loads;
@@ -164,43 +152,6 @@ TEST(DealBricks, CutsWhereThereIsLittle) {
     const std::vector<BrickBox> boxes = deal_bricks(loads, 2).boxes;
     EXPECT_GT(boxes[0].high[0], 3);
     EXPECT_LT(boxes[0].high[0], 6);
-}
-
-TEST(DealBricks, CountsTheParticlesOfBricks) {
-    const test::Particles particles = test::noise_cube(7, 5000, 0.5, 0.025);
-    const Settings settings = test::default_settings();
-    std::uint64_t count = 0;
-    for (const BrickLoad& load : brick_loads(particles.frame(), settings)) {
-        EXPECT_GT(load.particles, 0U);
-        count += load.particles;
-    }
-    EXPECT_EQ(count, particles.count());
-}
-
-TEST(DealBricks, WeighsBricksBySomeOfTheirParticles) {
-    // In rows of as many as there are in a group, from brick to brick.
-    test::Particles particles;
-    for (int z = 0; z < 40; ++z)
-        for (int y = 0; y < 40; ++y)
-            for (int x = 0; x < 40; ++x)
-                for (const int i : {x, y, z}) particles.positions.push_back(static_cast<float>(i) * 0.1F);
-    const Settings settings = test::default_settings();
-    const std::vector<BrickLoad> all = brick_loads(particles.frame(), settings);
-    const std::vector<BrickLoad> some = brick_loads(particles.frame(), settings, 0, 40);
-    std::uint64_t count = 0;
-    for (const BrickLoad& load : some) count += load.particles;
-    EXPECT_EQ(count, particles.count());
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        // Of each layer of bricks.
-        for (std::int32_t at = 0; at < 5; ++at) {
-            const auto particles_at = [&](const std::vector<BrickLoad>& loads) {
-                double sum = 0.0;
-                for (const BrickLoad& load : loads) sum += load.brick[axis] == at ? double(load.particles) : 0.0;
-                return sum;
-            };
-            EXPECT_NEAR(particles_at(some), particles_at(all), 0.1 * particles_at(all)) << axis << " " << at;
-        }
-    }
 }
 
 TEST(DealBricks, FindsTheSameCutsFarApart) {
